@@ -60,7 +60,7 @@ WEDGE_FN SampleBin loadSampleBin(__global const ushort* bins, uint size, uint i,
     return b;
 }
 
-/// Means are made step by step. Were they rounded to the nearest number, the last steps of many would be lost, but for
+/// Means are made wave by wave. Were they rounded to the nearest number, the last steps of many would be lost, but for
 /// those of the brightest samples: so they are rounded up or down by chance.
 WEDGE_FN void storeSampleBin(__global ushort* bins, uint size, uint i, uint bin, SampleBin b)
 {
@@ -78,31 +78,50 @@ WEDGE_FN void storeSampleBin(__global ushort* bins, uint size, uint i, uint bin,
     first[4u * (size_t)size] = (ushort)b.count;
 }
 
-/// Half of a pixel's samples: each bin has the share of all that it had.
-WEDGE_FN void halveCounts(__global ushort* bins, uint size, uint i)
-{
-    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
-        __global ushort* count = bins + ((size_t)b * WEDGE_BIN_NUMBERS + 4u) * size + i;
-        *count = (ushort)((*count + 1u) / 2u);
-    }
-}
+/// Bins of a pixel while samples are added to them: those that have been touched, as numbers.
+typedef struct {
+    SampleBin bin[WEDGE_SAMPLE_BINS];
+    uint touched; ///< a bit of each
+} OpenBins;
 
 /// Adds a sample, a number, to its pixel's bins. weight: above 0
-WEDGE_FN void binSample(
-    __global ushort* bins, uint size, uint i, __global const float* exposure, Vec3 radiance, float weight)
+WEDGE_FN void binSample(__global const ushort* bins, uint size, uint i, __global const float* exposure, Vec3 radiance,
+    float weight, OpenBins* open)
 {
     const float lightness = labOf(vecScale(radiance, exposure[0])).x * (1.0f / WEDGE_LAB_PIXEL);
-    const uint bin = sampleBinOf(lightness);
-    SampleBin b = loadSampleBin(bins, size, i, bin);
-    if (b.count == WEDGE_MOST_IN_BIN) {
-        halveCounts(bins, size, i);
-        b.count = WEDGE_MOST_IN_BIN / 2u + 1u;
-    }
+    const uint which = sampleBinOf(lightness);
+    SampleBin b = (open->touched >> which & 1u) != 0u ? open->bin[which] : loadSampleBin(bins, size, i, which);
     const float weights = b.weight * (float)b.count, all = weights + weight;
     b.mean = vecAdd(vecScale(b.mean, weights / all), vecScale(radiance, weight / all));
     b.count += 1u;
     b.weight = all / (float)b.count;
-    storeSampleBin(bins, size, i, bin, b);
+    open->bin[which] = b;
+    open->touched |= 1u << which;
+}
+
+/// Stores what has been touched. Where a count has no room in 16 bits all bins have half of what they had, so that each
+/// has the share of all that it had: odd numbers are rounded up or down by chance.
+WEDGE_FN void closeBins(__global ushort* bins, uint size, uint i, OpenBins* open)
+{
+    uint most = 0u;
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        most = (open->touched >> b & 1u) != 0u ? max(most, open->bin[b].count) : most;
+    }
+    for (; most > WEDGE_MOST_IN_BIN; most = (most + 1u) / 2u) {
+        for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+            if ((open->touched >> b & 1u) == 0u) {
+                open->bin[b] = loadSampleBin(bins, size, i, b);
+            }
+            const uint hash = hashCombine(i, as_uint(open->bin[b].mean.x) & 0x7fffffu);
+            open->bin[b].count = (open->bin[b].count + (hash & 1u)) / 2u;
+        }
+        open->touched = (1u << WEDGE_SAMPLE_BINS) - 1u;
+    }
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        if ((open->touched >> b & 1u) != 0u) {
+            storeSampleBin(bins, size, i, b, open->bin[b]);
+        }
+    }
 }
 
 #endif

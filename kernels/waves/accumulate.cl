@@ -131,6 +131,10 @@ __kernel void accumulatePaths(PARAMETERS)
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
+#if HAS_bins
+    OpenBins open;
+    open.touched = 0u;
+#endif
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k, n = samplesOfReceiver(p, k, total);
         if (objectId[r] == 0u) {
@@ -147,7 +151,7 @@ __kernel void accumulatePaths(PARAMETERS)
             continue;
         }
         if (n > 0u) {
-            binSample(bins, pixels, p.i, exposure, e, luminance(t.weights));
+            binSample(bins, pixels, p.i, exposure, e, luminance(t.weights), &open);
         }
 #endif
         t.radiance = vecMul(t.texture, e);
@@ -161,6 +165,9 @@ __kernel void accumulatePaths(PARAMETERS)
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];
     }
+#if HAS_bins
+    closeBins(bins, pixels, p.i, &open);
+#endif
     const float hit = (float)LOAD_hits(pixels, p.i);
     const float counted = wave.published != 0u ? hit : p.before > 0u ? hit / (float)p.before * (float)had : 0.0f;
     TermMeans means;
