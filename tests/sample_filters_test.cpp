@@ -1,7 +1,7 @@
 // What holds of filters of samples, over whole frames (host/render/stored_samples.h).
 #include "host/render/filter_chain.h"
+#include "tests/filtered_frames.h"
 #include "tests/image_means.h"
-#include "tests/render_support.h"
 
 #include <doctest/doctest.h>
 
@@ -33,27 +33,6 @@ render::Settings uniform(int spp)
     s.sampling = render::Sampling::Uniform;
     s.indirect.counts = render::IndirectCounts::Uniform;
     return s;
-}
-
-render::Settings with(render::Settings settings, const render::ChosenFilter& filter)
-{
-    settings.filters = { filter };
-    return settings;
-}
-
-std::vector<float> rendered(render::Renderer& renderer, const render::Settings& settings,
-    const std::string& plane = "beauty", bool layers = false)
-{
-    renderer.render(settings, {}, layers);
-    return pixels(renderer, plane, render::outputWindow(settings));
-}
-
-double sumOf(const std::vector<float>& values)
-{
-    double sum = 0;
-    for (const float v : values)
-        sum += v;
-    return sum;
 }
 
 } // namespace

@@ -21,10 +21,7 @@ private:
     std::uint32_t mostSamples() const override;
     CountsFrom countsFrom() const override;
     bool keepsParts() const override { return varies(); }
-    bool isOfSampleFilters() const override
-    {
-        return component_ == Component::Diffuse || component_ == Component::Glossy;
-    }
+    bool isOfSampleFilters() const override { return render::isOfSampleFilters(component_); }
     void start() override;
     void widths() override;
     Uncertain uncertainty() override;

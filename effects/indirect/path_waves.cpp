@@ -46,8 +46,7 @@ PathWaves::Shared PathWaves::samplePaths(Waves& waves, const Adding& adding, con
 
 graph::Handle<Sums> PathWaves::probe(Waves& waves, const PrimaryCounts& counts)
 {
-    means.wanted = counts.wanted;
-    return samplePaths(waves, {}, counts).sums;
+    return samplePaths(waves, { .probes = true }, counts).sums;
 }
 
 void PathWaves::sample(

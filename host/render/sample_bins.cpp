@@ -15,12 +15,6 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
-namespace {
-
-constexpr const char* pass = "filters of samples";
-
-} // namespace
-
 SampleBins::SampleBins(
     FrameBuilder& frame, ChosenSampleFilter chosen, graph::Handle<Packed> bins, graph::Handle<Share> exposure)
     : frame_(frame)
@@ -69,7 +63,7 @@ TermMeans SampleBins::kept(const TermMeans& all, bool layers)
         density_ = g.plane<Share>("path density", graph::floats);
     }
     auto shares = g.plane<Packed>("shares of bins", binShares);
-    frame_.pixels(pass, PassKind::Filter, *chosen_.filter->kernelOfBins(),
+    frame_.pixels(samplePass, PassKind::Filter, *chosen_.filter->kernelOfBins(),
         joined({ p }, chosen_.filter->arguments(chosen_.values, frame_.analysed()),
             Arguments { reads("bins", bins_, graph::around(WEDGE_SAMPLE_REACH)), reads("exposure", exposure_),
                 writes("shares", shares),
@@ -88,7 +82,7 @@ TermMeans SampleBins::kept(const TermMeans& all, bool layers)
     const auto to = [](const char* name, auto& plane, const graph::Format& format) {
         return plane.graph != 0 ? writes(name, plane) : graph::absent(name, format);
     };
-    frame_.pixels(pass, PassKind::Filter, { "filter/kept_bins.cl", "keepBins" },
+    frame_.pixels(samplePass, PassKind::Filter, { "filter/kept_bins.cl", "keepBins" },
         joined({ p, value("lossy", chosen_.filter->losesLight() ? 1u : 0u), reads("bins", bins_),
                    reads("shares", shares) },
             graph::together("term",

@@ -14,7 +14,6 @@ using graph::writes;
 
 namespace {
 
-constexpr const char* pass = "filters of samples";
 constexpr const char* exposurePass = "exposure of samples";
 
 } // namespace
@@ -50,9 +49,9 @@ void spread(FrameBuilder& frame, float sigma, LostLight lost)
             reads("objectId", frame.surfaces.objectId, far), reads("normal", frame.surfaces.normal, far),
             reads("taken", lost.taken, far) };
     };
-    frame.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
+    frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
         joined(surface(), Arguments { reads("excess", lost.excess), writes("per", per) }));
-    frame.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
+    frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
         joined(surface(),
             Arguments { reads("excess", lost.excess, far), reads("per", per, far), updates("sums", lost.sums),
                 lost.parts.graph != 0 ? updates("parts", lost.parts) : graph::absent("parts", packedColours) }));
@@ -61,7 +60,7 @@ void spread(FrameBuilder& frame, float sigma, LostLight lost)
 void meansOfKept(
     FrameBuilder& frame, const graph::Handle<Sums>& sums, const graph::Handle<Count>& taken, graph::Handle<Value>& mean)
 {
-    frame.pixels(pass, PassKind::Filter, { "filter/spread.cl", "meanOfKept" },
+    frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "meanOfKept" },
         { frame.rectangle(frame.analysisParams()), reads("sums", sums), reads("taken", taken), writes("mean", mean) });
 }
 

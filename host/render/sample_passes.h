@@ -6,6 +6,9 @@
 
 namespace wedge::render {
 
+/// What reports call passes that go over samples.
+inline constexpr const char* samplePass = "filters of samples";
+
 /// Declares how many samples of each pixel the exposure is found of: of one pixel among WEDGE_PROBE_STEP^2, on a
 /// surface where objectId is known, else of whatever.
 graph::Handle<Count> probeCounts(FrameBuilder& frame, const graph::Handle<ObjectId>& objectId);

@@ -20,7 +20,6 @@ using graph::value;
 
 namespace {
 
-constexpr const char* pass = "filters of samples";
 constexpr int reach = WEDGE_SAMPLE_REACH;
 constexpr std::uint32_t channels = 3;
 
@@ -140,7 +139,7 @@ void StoredSamples::keep()
         return out;
     });
     const std::size_t most = std::size_t { frame_.layout.width } * static_cast<std::size_t>(rows_);
-    frame_.graph.add({ .name = pass,
+    frame_.graph.add({ .name = samplePass,
         .kind = PassKind::Filter,
         .kernel = chosen_.filter->kernel(),
         .arguments = joined({ p, value("firstPass", first_) },

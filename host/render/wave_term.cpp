@@ -39,9 +39,10 @@ WaveTerm::Shared WaveTerm::share(
     const Receivers& r = waves.receivers();
     waves.list("lists", { "waves/waves.cl", "shareSamples" }, 1,
         { waves.pixelParams(), waves.params(), reads("pixelOf", r.pixelOf), reads("shareOf", r.shareOf),
-            reads("taken", shape_.full ? means.taken : counts.taken), reads("wanted", wantedOf(adding, counts)),
-            value("sumPlanes", sums), value("extremePlanes", extremes), writes("first", out.first),
-            writes("last", out.last), writes("sums", out.sums), writes("extremes", out.extremes) });
+            reads("taken", shape_.full && !adding.probes ? means.taken : counts.taken),
+            reads("wanted", wantedOf(adding, counts)), value("sumPlanes", sums), value("extremePlanes", extremes),
+            writes("first", out.first), writes("last", out.last), writes("sums", out.sums),
+            writes("extremes", out.extremes) });
     return out;
 }
 
@@ -75,7 +76,7 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
 
 graph::Version WaveTerm::wantedOf(const Adding& adding, const PrimaryCounts& counts) const
 {
-    return adding.first && shape_.lean() ? counts.taken : means.wanted;
+    return adding.probes ? counts.wanted : adding.first && shape_.lean() ? counts.taken : means.wanted;
 }
 
 graph::Handle<Extremes> WaveTerm::wholeExtremes() const

@@ -67,6 +67,7 @@ std::vector<graph::Argument> readsMotion(
 struct Adding {
     bool first = false; ///< the analysis is made of these samples
     bool measures = false; ///< what the analysis is made of, and not the means alone
+    bool probes = false; ///< of the term as many as primary ones, which are added to nothing
 };
 
 /// What filters made of a term's value.
@@ -95,8 +96,8 @@ public:
     /// The samples of a wave's receivers, added to their pixels. counts, hits: of primary samples.
     virtual void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) = 0;
-    /// Whether filters of samples (filter_chain.h) are of this term; of those that are, samples of probes, whose counts
-    /// are the wave's: sums of receivers, as lists.
+    /// Whether filters of samples (filter_chain.h) are of this term; of those that are, samples of probes, one of
+    /// each receiver: sums, as lists.
     virtual bool isOfSampleFilters() const { return false; }
     virtual graph::Handle<Sums> probe(Waves& /*waves*/, const PrimaryCounts& /*counts*/) { return {}; }
     /// means.beta, metres, from what was measured.

@@ -61,8 +61,8 @@ WEDGE_FN float varianceOfKept(const KeptBins* kept)
 
 /// The variance of a primary sample's radiance (waves/accumulate.h) by which pixels ask for more: between that of what
 /// is kept, its irradiance's and its texture's, and that of all, their geometric mean. What is left out is light that
-/// is hard to find or light that does not matter, and one cannot tell. before: of all; negative: not known k, e:
-/// luminances of texture and irradiance; ofTexture: variance
+/// is hard to find or light that does not matter, and one cannot tell.
+/// k, e: luminances of texture and irradiance; ofTexture: variance; before: that of all, negative where it is not known
 WEDGE_FN float varianceOfRadiance(const KeptBins* kept, float k, float e, float ofTexture, float before)
 {
     const float own = k * k * varianceOfKept(kept) + e * e * ofTexture;

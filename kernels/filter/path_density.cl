@@ -14,6 +14,21 @@ __constant char densityOffsets[] = { 0, 0, -1, 0, 0, -1, 0, 1, 1, 0, -1, -1, -1,
     -1, -3, 1, -1, -3, -1, 3, 1, -3, 1, 3, 3, -1, 3, 1, -3, -2, -3, 2, -2, -3, -2, 3, 2, -3, 2, 3, 3, -2, 3, 2 };
 #define WEDGE_DENSITY_PIXELS 45u
 
+/// How far the pixel with number `o` is from the one in the middle.
+WEDGE_INLINE float densityDistance(uint o)
+{
+    const int dx = densityOffsets[2u * o], dy = densityOffsets[2u * o + 1u];
+    return sqrt((float)(dx * dx + dy * dy));
+}
+
+/// Its index; false beyond the image.
+WEDGE_INLINE bool densityPixel(AnalysisParams p, uint x, uint y, uint o, uint* index)
+{
+    const int u = (int)x + densityOffsets[2u * o], v = (int)y + densityOffsets[2u * o + 1u];
+    *index = pixelIndex((uint)u, (uint)v, p.stride);
+    return u >= 0 && v >= 0 && u < (int)p.width && v < (int)p.height;
+}
+
 /// The k least distances so far of one sample; as many are the largest there is as are not known.
 typedef struct {
     float distance[WEDGE_MOST_NEAREST];
@@ -114,17 +129,12 @@ WEDGE_FN float isolationOf(const StoredSamples* s, AnalysisParams p, uint x, uin
     Nearest nearest;
     nothingNear(&nearest, k);
     for (uint o = 0u; o < WEDGE_DENSITY_PIXELS; ++o) {
-        const int dx = densityOffsets[2u * o], dy = densityOffsets[2u * o + 1u];
-        const float far = sqrt((float)(dx * dx + dy * dy));
+        const float far = densityDistance(o);
         if (far >= nearest.largest || nearest.sum <= enough * (float)k) {
             break;
         }
-        const int u = (int)x + dx, v = (int)y + dy;
-        if (u < 0 || v < 0 || u >= (int)p.width || v >= (int)p.height) {
-            continue;
-        }
-        const uint j = pixelIndex((uint)u, (uint)v, p.stride);
-        if (s->drawn[j] == 0u) {
+        uint j;
+        if (!densityPixel(p, x, y, o, &j) || s->drawn[j] == 0u) {
             continue;
         }
         // No sample there is nearer than the range of brightness is.
@@ -244,14 +254,13 @@ WEDGE_FN float isolationOfBin(
     Nearest nearest;
     nothingNear(&nearest, k);
     for (uint o = 0u; o < WEDGE_DENSITY_PIXELS; ++o) {
-        const int dx = densityOffsets[2u * o], dy = densityOffsets[2u * o + 1u];
-        const float far = sqrt((float)(dx * dx + dy * dy));
+        const float far = densityDistance(o);
         if (far >= nearest.largest || nearest.sum <= enough * (float)k) {
             break;
         }
-        const int u = (int)x + dx, v = (int)y + dy;
-        if (u >= 0 && v >= 0 && u < (int)p.width && v < (int)p.height) {
-            addBinsOf(s, pixelIndex((uint)u, (uint)v, p.stride), far, own, o == 0u ? bin : WEDGE_SAMPLE_BINS, &nearest);
+        uint j;
+        if (densityPixel(p, x, y, o, &j)) {
+            addBinsOf(s, j, far, own, o == 0u ? bin : WEDGE_SAMPLE_BINS, &nearest);
         }
     }
     return fmax(nearest.sum / (float)k, 0.0f);
