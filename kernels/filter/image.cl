@@ -1,5 +1,6 @@
 // Filters of the finished image: linear radiance, 3 planes, whatever it shows. Pixels that are not finite in a channel
 // are left out of what others are made of, and something is made of those.
+#include "core/finite.h"
 #include "core/pixel.h"
 #include "shared/bsdf.h"
 #include "shared/filter_params.h"
@@ -11,11 +12,6 @@
 #define WEDGE_LOG2_E 1.44269504f
 /// The least normal float. Less luminance is as good as none, and some devices take it for 0.
 #define WEDGE_LEAST_NORMAL 1.17549435e-38f
-
-/// By its bits: fast maths lets compilers take any number for finite.
-WEDGE_INLINE bool finiteNumber(float v) { return (as_uint(v) & 0x7f800000u) != 0x7f800000u; }
-/// In all channels.
-WEDGE_INLINE bool finiteVec(Vec3 v) { return finiteNumber(v.x) && finiteNumber(v.y) && finiteNumber(v.z); }
 
 /// Black in place of what is not finite.
 WEDGE_INLINE Vec3 finiteOrBlack(Vec3 v) { return vecChoose(finiteVec(v), v, vec3(0.0f, 0.0f, 0.0f)); }
@@ -52,7 +48,7 @@ WEDGE_INLINE Vec3 meanOf(ImageMean mean)
 }
 
 /// The Gaussian along a line of pixels that are `element` apart, of which so many lie before and after the pixel.
-WEDGE_INLINE Vec3 gaussianOfLine(
+WEDGE_INLINE ImageMean gaussianOfLine(
     __global const float* image, uint planeSize, uint i, int before, int after, int element, float sigma)
 {
     const int reach = (int)ceil(WEDGE_IMAGE_CUT * sigma);
@@ -65,18 +61,20 @@ WEDGE_INLINE Vec3 gaussianOfLine(
             addToMean(&mean, v, exp2Bounded(falloff * (float)(k * k)));
         }
     }
-    return meanOf(mean);
+    return mean;
 }
 
 /// A Gaussian along x; beyond the image there is nothing, and weights are divided by their sum.
 /// in   image, sigma: pixels
-/// out  out: where the image is not finite, the mean of the others
+/// out  out: where the image is not finite, the mean of the others; not a number where there is none, so that columns
+///      leave it out
 #include "pass/imageRows.h"
 #ifdef PASS_imageRows
 __kernel void imageRows(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    storeVec(out, p.planeSize, i, gaussianOfLine(image, p.planeSize, i, (int)x, (int)(p.width - 1u - x), 1, sigma));
+    const ImageMean mean = gaussianOfLine(image, p.planeSize, i, (int)x, (int)(p.width - 1u - x), 1, sigma);
+    storeVec(out, p.planeSize, i, vecIf(mean.weights > 0.0f, meanOf(mean)));
 }
 #endif
 
@@ -89,7 +87,7 @@ __kernel void imageColumns(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     storeVec(out, p.planeSize, i,
-        gaussianOfLine(image, p.planeSize, i, (int)y, (int)(p.height - 1u - y), (int)p.stride, sigma));
+        meanOf(gaussianOfLine(image, p.planeSize, i, (int)y, (int)(p.height - 1u - y), (int)p.stride, sigma)));
 }
 #endif
 
