@@ -50,7 +50,7 @@ TEST_CASE("a scene's filters and --add-filter do the same, and the image says wh
     const std::string both = "median:radius=1 colour:red=0.5,green=1,blue=1,density=0.5";
     CHECK(appliedFilters(place) == both);
     writeScene(place,
-        "\n[[filter]]\ntype = \"median\"\n[[filter]]\ntype = \"gaussian\"\non = false\n"
+        "\n[[filter]]\ntype = \"median\"\n[[filter]]\ntype = \"gaussian\"\nenabled = false\n"
         "[[filter]]\ntype = \"colour\"\nred = 0.5\ndensity = 0.5\n");
     CHECK(beauty(place, "scene.toml", {}) == added);
     CHECK(appliedFilters(place) == both);
@@ -60,6 +60,13 @@ TEST_CASE("a scene's filters and --add-filter do the same, and the image says wh
     const std::vector<float> more = beauty(place, "scene.toml", { "--add-filter", "sharpen:amount=1" });
     CHECK(more != added);
     CHECK(appliedFilters(place) == both + " sharpen:sigma=1,amount=1");
+    // What they are on.
+    const std::vector<float> direct =
+        beauty(place, "scene.toml", { "--no-filters", "--add-filter", "median:on=direct" });
+    CHECK(appliedFilters(place) == "median:radius=1,on=direct");
+    writeScene(place, "\n[[filter]]\ntype = \"median\"\non = [\"direct\"]\n");
+    CHECK(beauty(place, "scene.toml", {}) == direct);
+    CHECK(appliedFilters(place) == "median:radius=1,on=direct");
     CHECK(beauty(place, "scene.toml", { "--no-filters", "--add-filter", "median" }) != plain);
     CHECK(appliedFilters(place) == "median:radius=1");
 }
@@ -95,6 +102,15 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refused("gaussian:sigma=nan", "number from 0 to 32");
     refused("gaussian:sigma=1e9", "number from 0 to 32");
     refused("gaussian:sigma=", "number from 0 to 32");
+    refused("median:on=direkt", "write direct");
+    refused("median:on=", "cannot be on (empty)");
+    refused("median:on", "write median:on=image");
+    refused("median:on=direct+direct", "twice on direct");
+    refused("median:on=direct+image", "which come one after the other");
+    refused("median:on=direct,on=direct", "twice: on");
+    refused("path-density:on=image", "choose among: indirect, indirectDiffuse, indirectGlossy");
+    refused("median:on=environment", "the frame has: image, direct");
+    refused("median:on=indirect", "the frame has: image, direct");
     const auto refusedCall = [&](const Arguments& more, const std::string& says) {
         Arguments arguments = { "render", box, "--bounces", "1", "--spp", "16", "-o", "a.exr" };
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -105,6 +121,9 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
         CHECK(std::ranges::count(outcome.err, '\n') == 1);
     };
     refusedCall({ "--add-filter", "median", "--add-filter", "clamp" }, "give clamp before median");
+    refusedCall(
+        { "--add-filter", "median", "--add-filter", "median:on=direct" }, "give median:on=direct before median");
+    refusedCall({ "--add-filter", "median:on=direct", "--add-filter", "box:on=indirectDiffuse" }, "filter of a term");
     refusedCall({ "--add-filter", "gmon", "--add-filter", "clamp" }, "gmon and clamp: leave one out");
     refusedCall({ "--add-filter", "gmon", "--antialias" }, "neither antialiased nor progressive: gmon");
     refusedCall({ "--add-filter", "gmon", "--progressive" }, "neither antialiased nor progressive: gmon");
@@ -124,6 +143,11 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refusedScene("\n[[filter]]\ntype = \"medan\"\n", "use one of: path-density, clamp, trim");
     refusedScene("\n[[filter]]\ntype = \"median\"\n[[filter]]\ntype = \"trim\"\n", "give trim before median");
     refusedScene("\n[[filter]]\nradius = 1\n", "add 'type = ...'");
+    refusedScene("\n[[filter]]\ntype = \"median\"\non = \"direkt\"\n", "write 'direct'");
+    refusedScene("\n[[filter]]\ntype = \"median\"\non = [\"direct\", \"image\"]\n", "leave one out");
+    refusedScene("\n[[filter]]\ntype = \"median\"\non = []\n", "is empty");
+    refusedScene("\n[[filter]]\ntype = \"median\"\non = false\n", "a name, or a list of names");
+    refusedScene("\n[[filter]]\ntype = \"median\"\non = [1]\n", "a name, or a list of names");
     refusedScene("\n[[filter]]\ntype = \"median\"\nradus = 1\n", "did you mean 'radius'");
     refusedScene("\n[[filter]]\ntype = \"median\"\nradius = 7\n", "0 to 3");
 }

@@ -1,4 +1,4 @@
-// frame/tally.cl, frame/layers.cl and frame/unfiltered.cl: what is added to a frame's sums, and what is shown.
+// frame/tally.cl, frame/layers.cl and frame/sums.cl: what is added to a frame's sums, and what is shown.
 // meanOfMirrored: means.
 #include "tests/glass_support.h"
 #include "tests/pass_bench.h"

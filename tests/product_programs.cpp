@@ -73,6 +73,15 @@ std::vector<Settings> manySettings()
         s.components = 3;
     });
     add(1, [](Settings& s) { s.filters = everyImageFilter(); });
+    // Filters of terms, and of parts of the image.
+    for (const std::size_t like : { 6u, 7u }) {
+        for (const bool antialias : { false, true }) {
+            add(like, [&](Settings& s) {
+                s.antialias = antialias;
+                s.filters = { { "box", { 1 }, { "indirectDiffuse", "environment" } }, { "box", { 1 }, { "direct" } } };
+            });
+        }
+    }
     for (const auto& filter : render::registeredFilters()) {
         if (filter->stage() == render::Stage::Samples) {
             add(6, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // bounced, filtered

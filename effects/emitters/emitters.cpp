@@ -21,6 +21,11 @@ public:
         return terms;
     }
 
+    std::vector<Target> targets() const override
+    {
+        return { targetOf(Component::Emitters), targetOf(Component::EmittersGlossy) };
+    }
+
     std::string widthLayers() const override
     {
         return "of meshes that emit filterWidthEmitters, filterWidthEmittersGlossy";

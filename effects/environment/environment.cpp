@@ -36,6 +36,11 @@ public:
         return terms;
     }
 
+    std::vector<Target> targets() const override
+    {
+        return { targetOf(Component::Environment), targetOf(Component::EnvironmentGlossy) };
+    }
+
     std::string widthLayers() const override
     {
         return "of the environment filterWidthEnvironment, filterWidthEnvironmentGlossy";

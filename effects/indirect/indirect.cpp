@@ -30,6 +30,31 @@ std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component co
                                                  : graph::absent("environmentSamples") }));
 }
 
+Target targetOf(Component component)
+{
+    const auto name = [&] {
+        switch (component) {
+        case Component::Diffuse:
+            return "indirectDiffuse";
+        case Component::Glossy:
+            return "indirectGlossy";
+        case Component::Ambient:
+            return "ambient";
+        case Component::Emitters:
+            return "emitters";
+        case Component::EmittersGlossy:
+            return "emittersGlossy";
+        case Component::Environment:
+            return "environment";
+        case Component::EnvironmentGlossy:
+            break;
+        }
+        return "environmentGlossy";
+    };
+    const bool bounces = component == Component::Diffuse || component == Component::Glossy;
+    return { name(), bounces }; // what is found by bounces has outliers
+}
+
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
 {
     const Settings& settings = frame.settings;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/render/filter_chain.h"
 #include "host/render/receiver_set.h"
 #include "kernels/shared/curvature.h"
 #include "kernels/shared/filter_params.h"
@@ -31,9 +32,10 @@ constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c 
 /// Whether it is direct light from beyond the scene.
 constexpr bool isOfEnvironment(Component c) { return c == Component::Environment || c == Component::EnvironmentGlossy; }
 /// Whether it is direct light.
-/// Whether filters of samples (filter_chain.h) are of it: what is found by bounces has outliers.
-constexpr bool isOfSampleFilters(Component c) { return c == Component::Diffuse || c == Component::Glossy; }
 constexpr bool isDirect(Component c) { return isOfEmitters(c) || isOfEnvironment(c); }
+
+/// What filters can be on it by.
+Target targetOf(Component component);
 
 /// Whether a component's samples are fractions of what would arrive if nothing were hidden, and its reflectance is
 /// multiplied by that.

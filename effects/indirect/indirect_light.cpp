@@ -24,6 +24,11 @@ public:
         return terms;
     }
 
+    std::vector<Target> targets() const override
+    {
+        return { targetOf(Component::Diffuse), targetOf(Component::Glossy), targetOf(Component::Ambient) };
+    }
+
     std::string absence(Part part) const override
     {
         return part == Part::Indirect ? "there are no bounces of light" : "";

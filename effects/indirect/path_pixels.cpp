@@ -230,6 +230,23 @@ void PathPixels::add(const graph::Handle<Value>& shown)
         { f_.rectangle(countParams()), component(), value("varies", varies() ? 1u : 0u),
             reads("reflectance", reflectance_), reads("value", shown), reads("taken", taken_),
             updates("indirect", sum_.filtered), updates("variance", sum_.variance) });
+    addTermFilters(shown);
+}
+
+void PathPixels::addTermFilters(const graph::Handle<Value>& shown)
+{
+    if (!isFiltered(s_, target().name)) {
+        return;
+    }
+    const char* pass = "filters of terms";
+    auto arrives = g_.plane<Radiance>("what arrives", graph::vectors);
+    f_.blocks(pass, PassKind::Filter, { "frame/composite.cl", "arrivingAtPixels" },
+        { f_.rectangle(countParams()), component(), reads("value", shown), reads("taken", taken_),
+            writes("arrives", arrives) });
+    const graph::Handle<Radiance> filtered = filteredImage(f_, target().name, arrives);
+    f_.blocks(pass, PassKind::Filter, { "frame/composite.cl", "addTermChange" },
+        { f_.rectangle(countParams()), component(), reads("reflectance", reflectance_), reads("before", arrives),
+            reads("after", filtered), reads("taken", taken_), updates("change", sum_.change) });
 }
 
 } // namespace wedge::render

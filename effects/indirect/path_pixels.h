@@ -21,7 +21,7 @@ private:
     std::uint32_t mostSamples() const override;
     CountsFrom countsFrom() const override;
     bool keepsParts() const override { return varies(); }
-    bool isOfSampleFilters() const override { return render::isOfSampleFilters(component_); }
+    Target target() const override { return targetOf(component_); }
     void start() override;
     void widths() override;
     Uncertain uncertainty() override;
@@ -37,6 +37,8 @@ private:
     graph::Handle<Value> filtered();
     void addSamples();
     void add(const graph::Handle<Value>& shown);
+    /// What filters that are on the term change of it.
+    void addTermFilters(const graph::Handle<Value>& shown);
 
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
     /// Whether a pixel's samples are asked how much they vary, for what filters do.

@@ -11,6 +11,7 @@ Term pathTerm(Component component, const char* name, const Settings& settings)
 {
     const bool direct = isDirect(component);
     return { .name = name,
+        .target = targetOf(component).name,
         .part = direct ? Part::Direct : Part::Indirect,
         .workUnits = static_cast<double>(settings.spp) * (direct ? 1 : std::max(1, settings.bounces)),
         .gathersVariance = true,

@@ -12,7 +12,7 @@ public:
 
     void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;
-    bool isOfSampleFilters() const override { return render::isOfSampleFilters(component_); }
+    Target target() const override { return targetOf(component_); }
     graph::Handle<Sums> probe(Waves& waves, const PrimaryCounts& counts) override;
     void widths() override;
     std::uint32_t publishedSamples() const override;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace wedge::filters {
 
@@ -41,8 +42,14 @@ std::any readFilter(scene::TableReader& table, scene::Warnings& /*warnings*/)
         }();
         chosen.values.push_back(static_cast<float>(value.value_or(parameter.standard)));
     }
-    const bool on = table.boolean("on").value_or(true);
-    return on ? std::optional(std::move(chosen)) : std::optional<ChosenFilter>();
+    const render::Filter& filter = *render::filterNamed(chosen.name);
+    chosen.on = table.choices(render::filterTargets, render::targetsOf(filter));
+    if (const std::string wrong = render::wrongTargets(chosen.on); !wrong.empty()) {
+        table.fail(render::filterTargets, fmt::format("of filter {} is wrong: it is {}", chosen.name, wrong),
+            fmt::format("{}", fmt::join(chosen.on, ", ")), "leave one out");
+    }
+    const bool enabled = table.boolean("enabled").value_or(true);
+    return enabled ? std::optional(std::move(chosen)) : std::optional<ChosenFilter>();
 }
 
 std::vector<ChosenFilter> filtersOf(const scene::Scene& scene)

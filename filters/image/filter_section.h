@@ -13,8 +13,8 @@ namespace wedge::filters {
 /// [[filter]] of scene files.
 inline constexpr const char* filterSection = "filter";
 
-/// One of them: `type`, the filter's parameters, and `on`, which is true where it is not there. A
-/// std::optional<render::ChosenFilter>, empty where it is off. Throws Error for what is wrong in it.
+/// One of them: `type`, the filter's parameters, `on`, what it filters, and `enabled`, which is true where it is not
+/// there. A std::optional<render::ChosenFilter>, empty where it is not enabled. Throws Error for what is wrong in it.
 std::any readFilter(scene::TableReader& table, scene::Warnings& warnings);
 
 /// Those of a scene that are on, in the file's order.

@@ -6,11 +6,13 @@
 #include "host/app/values.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/effect.h"
 #include "host/render/emitters.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace wedge::app {
 namespace {
@@ -237,6 +239,30 @@ void refuseUndistributed(const RenderOptions& o, const std::string& method)
     }
 }
 
+/// What a call asks for filters on has to be there; a scene file's filters wait for it.
+void refuseIdleTargets(const RenderOptions& o, const render::Settings& s, const render::PreparedScene& scene)
+{
+    const std::vector<render::Term> terms = render::frameTerms(s, scene);
+    std::vector<std::string> there { render::targets::image, render::targets::direct };
+    if (render::countOf(render::Part::Indirect, terms) > 0) {
+        there.emplace_back(render::targets::indirect);
+    }
+    for (const render::Term& term : terms) {
+        if (!term.target.empty()) {
+            there.push_back(term.target);
+        }
+    }
+    for (const render::ChosenFilter& filter : o.filters) {
+        for (const std::string& target : filter.on) {
+            if (std::ranges::find(there, target) == there.end()) {
+                throw UsageError("filter is on light that the frame has not",
+                    fmt::format("--add-filter {}:{}={}", filter.name, render::filterTargets, target),
+                    fmt::format("the frame has: {}", fmt::join(there, ", ")));
+            }
+        }
+    }
+}
+
 /// Filters of samples are of indirect light: where a call asks for one there has to be some. A scene file's waits for
 /// it.
 void refuseIdleSampleFilter(const RenderOptions& o, const render::Settings& s)
@@ -327,6 +353,7 @@ render::Settings resolveSettings(const RenderOptions& o, const render::PreparedS
         applyCounts(o, scene, distributed, s);
     }
     refuseIdleSampleFilter(o, s);
+    refuseIdleTargets(o, s, scene);
     render::validate(s, distributed);
     return s;
 }

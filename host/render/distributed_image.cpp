@@ -1,5 +1,6 @@
 // The image of a frame of several receivers a pixel, of what its pixels keep of their samples.
 #include "host/render/distributed_samples.h"
+#include "host/render/filter_chain.h"
 
 #include <algorithm>
 #include <limits>
@@ -96,7 +97,8 @@ void DistributedSamples::addPlain(const std::vector<TermMeans>& all)
     const bool kept =
         std::ranges::any_of(terms_, [](const std::unique_ptr<WaveTerm>& term) { return term->bins.has_value(); });
     if (shape_.apart && !kept) {
-        plain_ = sumOfAll("image before filters", f_.totals.direct.noisy, f_.totals.indirect.noisy);
+        plain_ = f_.sumOfParts(
+            pixels(), "image before filters", f_.surfaces.emission, f_.totals.direct.noisy, f_.totals.indirect.noisy);
         return;
     }
     plain_ = copyOf("image before filters", shape_.apart ? f_.surfaces.emission : f_.totals.beauty);
@@ -131,16 +133,6 @@ void DistributedSamples::startParts()
     }
 }
 
-graph::Handle<Radiance> DistributedSamples::sumOfAll(
-    const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect)
-{
-    auto sum = f_.graph.plane<Radiance>(name, graph::vectors);
-    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addAll" },
-        { pixels(), reads("emission", f_.surfaces.emission), reads("direct", direct), reads("indirect", indirect),
-            writes("beauty", sum) });
-    return sum;
-}
-
 void DistributedSamples::addOwn(
     WaveTerm& term, const TermMeans& means, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
 {
@@ -156,7 +148,7 @@ void DistributedSamples::addFiltered(
     WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance)
 {
     const shared::DistributedParams p = term.of(params());
-    graph::Version texture = term.means.texture;
+    graph::Handle<Texture> texture = term.means.texture;
     if (shape_.moves && f_.settings.distributed.blur) {
         const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
         auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
@@ -172,6 +164,28 @@ void DistributedSamples::addFiltered(
             shape_.published ? reads("termRadiance", term.means.radiance)
                              : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) });
+    addTermFilters(term, &filtered, texture, radiance);
+}
+
+void DistributedSamples::addTermFilters(WaveTerm& term, const FilteredTerm* filtered,
+    const graph::Handle<Texture>& texture, graph::Handle<Radiance>& radiance)
+{
+    const std::string target = term.target().name;
+    if (!isFiltered(f_.settings, target)) {
+        return;
+    }
+    const char* pass = "filters of terms";
+    const bool shares = filtered != nullptr && filtered->shares.graph != 0;
+    auto arrives = f_.graph.plane<Radiance>("what arrives", graph::vectors);
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "arrivingAtWaves" },
+        { pixels(), reads("texture", texture), reads("value", term.means.value),
+            filtered != nullptr ? reads("filtered", filtered->value) : graph::absent("filtered", graph::vectors),
+            filtered != nullptr ? reads("beta", term.means.beta) : graph::absent("beta"),
+            shares ? reads("shares", filtered->shares) : graph::absent("shares", shortPairs),
+            writes("arrives", arrives) });
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "addChange" },
+        { pixels(), reads("texture", texture), reads("before", arrives),
+            reads("after", filteredImage(f_, target, arrives)), updates("radiance", radiance) });
 }
 
 void DistributedSamples::blur(graph::Handle<Radiance>& image)
@@ -225,13 +239,19 @@ void DistributedSamples::compose()
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         addOwn(*term, term->means, sumOf(*term), filters());
+        const auto unfiltered = [filters = filters(), state = state_](
+                                    const Run&) { return !filters || !state->analysed; };
+        if (isFiltered(f_.settings, term->target().name)) {
+            f_.graph.only("filters of terms", unfiltered,
+                [&] { addTermFilters(*term, nullptr, term->means.texture, sumOf(*term)); });
+        }
     }
     lens_ = own.lens;
     along_ = own.along;
     if (shape_.apart) {
-        t.beauty = sumOfAll("beauty", t.direct.filtered, t.indirect.filtered);
+        t.beauty = f_.sumOfParts(pixels(), "beauty", f_.surfaces.emission, t.direct.filtered, t.indirect.filtered);
     }
-    if (shape_.layers) {
+    if (shape_.parts) {
         // What is kept is not filtered.
         emission_ =
             before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
@@ -241,7 +261,7 @@ void DistributedSamples::compose()
     }
     f_.graph.only("filter of the image", analysed(), [&] {
         blur(t.beauty);
-        if (shape_.layers) {
+        if (shape_.parts) {
             blur(emission_);
         }
         if (shape_.apart) {
@@ -262,6 +282,12 @@ void DistributedSamples::show(Outputs& to)
     to.add("indirectSamples", t.indirectSamples, Where::OnSurfaces, Join::Sum);
     to.add("raysTraced", t.rays, Where::Everywhere, Join::SumOfTraced);
     to.add("pathRays", t.pathRays, Where::Everywhere, Join::SumOfTraced);
+    if (shape_.parts) {
+        // Filters carry light to pixels that hit nothing themselves.
+        to.add("emission", emission_, Where::Everywhere, Join::Mean);
+        to.add("direct", t.direct.filtered, Where::Everywhere, Join::Mean);
+        to.add("indirect", t.indirect.filtered, Where::Everywhere, Join::Mean);
+    }
     if (!shape_.layers) {
         return;
     }
@@ -276,11 +302,7 @@ void DistributedSamples::show(Outputs& to)
     to.add("depth", s.depth, Where::Everywhere, Join::Surface);
     to.add("albedo", s.diffuse, Where::OnSurfaces, Join::Mean);
     to.add("specular", s.specular, Where::Everywhere, Join::Mean);
-    to.add("emission", emission_, Where::Everywhere, Join::Mean);
-    // Filters carry light to pixels that hit nothing themselves.
-    to.add("direct", t.direct.filtered, Where::Everywhere, Join::Mean);
     to.add("directNoisy", t.direct.noisy, Where::Everywhere, Join::Mean);
-    to.add("indirect", t.indirect.filtered, Where::Everywhere, Join::Mean);
     to.add("indirectNoisy", t.indirect.noisy, Where::Everywhere, Join::Mean);
     for (const Added& added : added_) {
         if (!added.of.layer.empty()) {

@@ -38,7 +38,8 @@ SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, boo
         && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
         && settings.indirect.meanFraction > 0;
     shape.layers = keepLayers;
-    shape.apart = keepLayers || apart;
+    shape.parts = keepLayers || hasStage(settings.filters, Stage::Frame);
+    shape.apart = shape.parts || apart;
     shape.full = keepLayers || settings.progressive || (shape.analysed && !usual);
     shape.compact = shape.analysed && usual && !keepLayers;
     shape.moves = somethingMoves(scene);
@@ -186,7 +187,7 @@ void DistributedSamples::keepTerm(WaveTerm& term)
 
 void DistributedSamples::keepBins(WaveTerm& term)
 {
-    const ChosenSampleFilter chosen = term.isOfSampleFilters() ? sampleFilterOf(f_.settings) : ChosenSampleFilter {};
+    const ChosenSampleFilter chosen = sampleFilterOf(f_.settings, term.target());
     if (chosen.filter != nullptr) {
         const auto bins = kept<Packed>("samples by brightness", sampleBins);
         term.bins.emplace(f_, chosen, bins, kept<Share>("exposure of samples", graph::floats, 1));

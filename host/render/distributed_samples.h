@@ -116,12 +116,12 @@ private:
     void addPlain(const std::vector<TermMeans>& all);
     graph::Handle<Radiance> copyOf(const std::string& name, const graph::Handle<Radiance>& image);
     void addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum);
-    /// Emission, direct and indirect light.
-    graph::Handle<Radiance> sumOfAll(
-        const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect);
     void addOwn(WaveTerm& term, const TermMeans& means, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
     /// own: blurs of the pixels.
     void addFiltered(WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance);
+    /// What filters that are on a term change of the image. filtered: null where the value is shown as it is.
+    void addTermFilters(WaveTerm& term, const FilteredTerm* filtered, const graph::Handle<Texture>& texture,
+        graph::Handle<Radiance>& radiance);
     void blur(graph::Handle<Radiance>& image);
     graph::Handle<Radiance>& sumOf(WaveTerm& term);
 

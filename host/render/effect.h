@@ -22,6 +22,7 @@ enum class Part { Direct, Indirect };
 /// Something that is sampled, filtered by itself, and added to the image: a light, a component of indirect light.
 struct Term {
     std::string name; ///< what the name of its filter widths' layer ends in
+    std::string target = {}; ///< by what filters can be on it (filter_chain.h); "" where none can
     Part part = Part::Direct;
     double workUnits = 0; ///< of a pixel, about as many as it has rays
     bool gathersVariance = false; ///< it adds to Sum::variance of its part
@@ -77,6 +78,8 @@ public:
 
     /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
     virtual std::string absence(Part) const { return ""; }
+    /// Terms that it could have, as far as filters can be on them.
+    virtual std::vector<Target> targets() const { return {}; }
     /// How its terms' layers of filter widths are called, for people; "" without terms.
     virtual std::string widthLayers() const { return ""; }
     /// Those of its own, whether or not frames have them: of unfiltered light, and what passes add to

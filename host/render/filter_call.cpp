@@ -33,13 +33,12 @@ std::set<std::string> namesOf(const List& list, const NameOf& nameOf)
     return names;
 }
 
-/// The parts of a text between commas.
-std::vector<std::string> parts(const std::string& text)
+std::vector<std::string> parts(const std::string& text, char separator)
 {
     std::vector<std::string> out;
     std::size_t begin = 0;
     while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::size_t end = std::min(text.find(separator, begin), text.size());
         out.push_back(text.substr(begin, end - begin));
         begin = end + 1;
     }
@@ -65,6 +64,24 @@ float valueOf(const std::string& what, const FilterParameter& parameter, const s
     return static_cast<float>(value);
 }
 
+/// What a filter is on, of "direct+indirect".
+std::vector<std::string> targetsIn(const std::string& call, const Filter& filter, const std::string& text)
+{
+    std::vector<std::string> on = parts(text, '+');
+    const std::vector<std::string> known = targetsOf(filter);
+    for (const std::string& target : on) {
+        if (std::ranges::find(known, target) == known.end()) {
+            throw UsageError(
+                fmt::format("filter {} cannot be on {}", filter.name(), target.empty() ? "(empty)" : target), call,
+                remedy(target, { known.begin(), known.end() }));
+        }
+    }
+    if (const std::string wrong = wrongTargets(on); !wrong.empty()) {
+        throw UsageError(fmt::format("filter {} is {}", filter.name(), wrong), call, "leave one out");
+    }
+    return on;
+}
+
 } // namespace
 
 ChosenFilter filterCall(const std::string& option, const std::string& text)
@@ -80,29 +97,36 @@ ChosenFilter filterCall(const std::string& option, const std::string& text)
                     : remedy(name, namesOf(registeredFilters(), [](const auto& each) { return each->name(); })));
     }
     const std::vector<FilterParameter> parameters = filter->parameters();
-    ChosenFilter chosen { name, {} };
+    ChosenFilter chosen { .name = name, .values = {} };
     std::ranges::transform(parameters, std::back_inserter(chosen.values), &FilterParameter::standard);
     std::set<std::string> given;
     const std::string call = fmt::format("{} {}", option, text);
     const std::string example =
         fmt::format("write {}:{}={:g}", name, parameters.front().name, parameters.front().standard);
     const bool any = colon != std::string::npos;
-    for (const std::string& part : any ? parts(text.substr(colon + 1)) : std::vector<std::string> {}) {
+    for (const std::string& part : any ? parts(text.substr(colon + 1), ',') : std::vector<std::string> {}) {
         const std::size_t equals = part.find('=');
         const std::string key = part.substr(0, equals);
         if (key.empty()) {
             throw UsageError("filter parameter has no name", call, example);
         }
+        const bool names = key == filterTargets;
         const auto found = std::ranges::find(parameters, key, &FilterParameter::name);
-        if (found == parameters.end()) {
-            throw UsageError(fmt::format("unknown parameter of filter {}: {}", name, key), call,
-                remedy(key, namesOf(parameters, [](const FilterParameter& each) { return each.name; })));
+        if (found == parameters.end() && !names) {
+            std::set<std::string> known = namesOf(parameters, [](const FilterParameter& each) { return each.name; });
+            known.insert(filterTargets);
+            throw UsageError(fmt::format("unknown parameter of filter {}: {}", name, key), call, remedy(key, known));
         }
         if (equals == std::string::npos) {
-            throw UsageError("filter parameter has no value: " + key, call, example);
+            throw UsageError("filter parameter has no value: " + key, call,
+                names ? fmt::format("write {}:{}={}", name, key, targetsOf(*filter).front()) : example);
         }
         if (!given.insert(key).second) {
             throw UsageError("filter parameter is given twice: " + key, call, "leave one out");
+        }
+        if (names) {
+            chosen.on = targetsIn(call, *filter, part.substr(equals + 1));
+            continue;
         }
         chosen.values[static_cast<std::size_t>(found - parameters.begin())] =
             valueOf(fmt::format("{} {}:{}", option, name, key), *found, part.substr(equals + 1));
@@ -118,7 +142,8 @@ std::string filterList()
         if (before == nullptr || before->stage() != filter->stage()) {
             out += filter->stage() == Stage::Samples
                 ? "\nFilters of samples of indirect light, and their parameters; a frame has one at most:\n"
-                : "\nFilters of the image, and their parameters:\n";
+                : "\nFilters of the image, or of what on=A+B says, and their parameters:\n";
+            out += fmt::format("  on: {}\n", fmt::join(targetsOf(*filter), ", "));
         }
         before = filter.get();
         const bool few = filter->stage() == Stage::Samples && !static_cast<const SampleFilter&>(*filter).kernelOfBins();

@@ -1,12 +1,14 @@
 #include "host/render/filter_chain.h"
 
 #include "host/error.h"
+#include "host/render/effect.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace wedge::render {
 namespace {
@@ -26,9 +28,58 @@ const Filter& filterOf(const ChosenFilter& chosen)
     return *filter;
 }
 
-Stage stageOf(const ChosenFilter& chosen) { return filterOf(chosen).stage(); }
+/// Whether what is chosen is on that.
+bool isOn(const ChosenFilter& chosen, const std::string& target)
+{
+    if (!chosen.on.empty()) {
+        return std::ranges::find(chosen.on, target) != chosen.on.end();
+    }
+    return target == (filterOf(chosen).stage() == Stage::Samples ? targets::indirect : targets::image);
+}
+
+/// Stage of a filter of images on that.
+Stage stageOn(const std::string& target)
+{
+    return target == targets::image                                ? Stage::Image
+        : target == targets::direct || target == targets::indirect ? Stage::Frame
+                                                                   : Stage::Terms;
+}
+
+const char* nameOf(Stage stage)
+{
+    switch (stage) {
+    case Stage::Samples:
+        return "samples";
+    case Stage::Terms:
+        return "a term";
+    case Stage::Frame:
+        return "direct or indirect light";
+    case Stage::Image:
+        break;
+    }
+    return "the image";
+}
+
+std::string namesOf(const std::vector<std::string>& on) { return fmt::format("{}", fmt::join(on, "+")); }
+
+/// Its name and what it is on, without values.
+std::string shortly(const ChosenFilter& chosen)
+{
+    return chosen.on.empty() ? chosen.name : fmt::format("{}:{}={}", chosen.name, filterTargets, namesOf(chosen.on));
+}
 
 } // namespace
+
+Stage stageOf(const ChosenFilter& chosen)
+{
+    const Stage usual = filterOf(chosen).stage();
+    return usual == Stage::Samples || chosen.on.empty() ? usual : stageOn(chosen.on.front());
+}
+
+bool hasStage(const std::vector<ChosenFilter>& filters, Stage stage)
+{
+    return std::ranges::any_of(filters, [&](const ChosenFilter& chosen) { return stageOf(chosen) == stage; });
+}
 
 const std::vector<std::unique_ptr<const Filter>>& registeredFilters() { return registered(); }
 
@@ -36,6 +87,38 @@ const Filter* filterNamed(const std::string& name)
 {
     const auto found = std::ranges::find_if(registered(), [&](const auto& each) { return each->name() == name; });
     return found != registered().end() ? found->get() : nullptr;
+}
+
+std::vector<std::string> targetsOf(const Filter& filter)
+{
+    const bool samples = filter.stage() == Stage::Samples;
+    std::vector<std::string> out;
+    if (!samples) {
+        out = { targets::image, targets::direct };
+    }
+    out.emplace_back(targets::indirect);
+    for (const std::unique_ptr<const Effect>& effect : effects()) {
+        for (const Target& target : effect->targets()) {
+            if (!samples || target.ofSamples) {
+                out.push_back(target.name);
+            }
+        }
+    }
+    return out;
+}
+
+std::string wrongTargets(const std::vector<std::string>& on)
+{
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        if (std::find(on.begin(), on.begin() + static_cast<std::ptrdiff_t>(i), on[i])
+            != on.begin() + static_cast<std::ptrdiff_t>(i)) {
+            return "twice on " + on[i];
+        }
+        if (stageOn(on[i]) != stageOn(on.front())) {
+            return fmt::format("on {} and on {}, which come one after the other", on.front(), on[i]);
+        }
+    }
+    return "";
 }
 
 void registerFilter(std::unique_ptr<const Filter> filter)
@@ -54,6 +137,7 @@ std::string describe(const std::vector<ChosenFilter>& filters)
         for (std::size_t i = 0; i < parameters.size(); ++i) {
             out += fmt::format("{}{}={}", i == 0 ? ":" : ",", parameters[i].name, chosen.values[i]);
         }
+        out += chosen.on.empty() ? "" : fmt::format(",{}={}", filterTargets, namesOf(chosen.on));
     }
     return out;
 }
@@ -77,9 +161,9 @@ std::optional<WrongOrder> wrongOrder(const std::vector<ChosenFilter>& filters, c
         return {};
     }
     const ChosenFilter &before = *wrong, &after = *std::next(wrong);
-    return WrongOrder { "filter of samples after one of the image",
-        fmt::format("{0} {1} {0} {2}", call, before.name, after.name),
-        fmt::format("give {} before {}", after.name, before.name) };
+    const std::string first = shortly(before), second = shortly(after);
+    return WrongOrder { fmt::format("filter of {} after one of {}", nameOf(stageOf(after)), nameOf(stageOf(before))),
+        fmt::format("{0} {1} {0} {2}", call, first, second), fmt::format("give {} before {}", second, first) };
 }
 
 ChosenSampleFilter sampleFilterOf(const Settings& settings)
@@ -93,10 +177,24 @@ ChosenSampleFilter sampleFilterOf(const Settings& settings)
     return {};
 }
 
-graph::Handle<Radiance> filteredImage(FrameBuilder& frame, graph::Handle<Radiance> image)
+ChosenSampleFilter sampleFilterOf(const Settings& settings, const Target& term)
+{
+    const auto found = std::ranges::find(settings.filters, Stage::Samples, stageOf);
+    const bool isOfTerm = term.ofSamples && found != settings.filters.end()
+        && (isOn(*found, targets::indirect) || isOn(*found, term.name));
+    return isOfTerm ? sampleFilterOf(settings) : ChosenSampleFilter {};
+}
+
+bool isFiltered(const Settings& settings, const std::string& target)
+{
+    return std::ranges::any_of(settings.filters,
+        [&](const ChosenFilter& chosen) { return stageOf(chosen) != Stage::Samples && isOn(chosen, target); });
+}
+
+graph::Handle<Radiance> filteredImage(FrameBuilder& frame, const std::string& target, graph::Handle<Radiance> image)
 {
     for (const ChosenFilter& chosen : frame.settings.filters) {
-        if (stageOf(chosen) == Stage::Image) {
+        if (stageOf(chosen) != Stage::Samples && isOn(chosen, target)) {
             image = static_cast<const ImageFilter&>(filterOf(chosen)).declare(frame, chosen.values, image);
         }
     }

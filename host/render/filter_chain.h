@@ -22,7 +22,24 @@ struct FilterParameter {
 /// Where in a frame a filter acts, in the order in which frames come there.
 enum class Stage {
     Samples, ///< of a term, before anything is made of them
+    Terms, ///< what arrives, filtered by what the analysis says, before surfaces reflect it
+    Frame, ///< direct or indirect light, reflected
     Image, ///< finished
+};
+
+/// What users say by it: a list of names.
+inline constexpr const char* filterTargets = "on";
+/// What filters may be on, besides terms (Effect::targets()).
+namespace targets {
+inline constexpr const char* image = "image";
+inline constexpr const char* direct = "direct";
+inline constexpr const char* indirect = "indirect"; ///< of filters of samples, each of its terms
+} // namespace targets
+
+/// A term that filters can be on, by its name.
+struct Target {
+    std::string name; ///< "": none can be
+    bool ofSamples = false; ///< filters of samples are of it, too
 };
 
 /// What users choose by name, of any stage.
@@ -33,14 +50,14 @@ public:
     Filter(const Filter&) = delete;
     Filter& operator=(const Filter&) = delete;
 
-    virtual Stage stage() const = 0;
+    virtual Stage stage() const = 0; ///< where nobody says what it is on
     virtual std::string name() const = 0; ///< no other filter's
     virtual std::string meaning() const = 0; ///< one line
     virtual std::vector<FilterParameter> parameters() const = 0;
 };
 
-/// Something that is done to the finished image, linear radiance, whatever it shows: passes over the beauty alone,
-/// after all others of the frame. It traces nothing, and knows neither samples nor what came before.
+/// Something that is done to an image, linear radiance, whatever it shows: the finished one, or a part of it. It traces
+/// nothing, and knows neither samples nor what came before.
 class ImageFilter : public Filter {
 public:
     Stage stage() const final { return Stage::Image; }
@@ -78,6 +95,11 @@ public:
 const std::vector<std::unique_ptr<const Filter>>& registeredFilters();
 /// Of that name; null where there is none.
 const Filter* filterNamed(const std::string& name);
+/// What it may be on.
+std::vector<std::string> targetsOf(const Filter& filter);
+/// What is wrong with what a filter is on, for people: twice the same, or of several stages; "" where nothing is. on:
+/// of targetsOf()
+std::string wrongTargets(const std::vector<std::string>& on);
 
 /// Adds one. Not while anybody renders.
 void registerFilter(std::unique_ptr<const Filter> filter);
@@ -102,15 +124,24 @@ struct WrongOrder {
 };
 std::optional<WrongOrder> wrongOrder(const std::vector<ChosenFilter>& filters, const std::string& call);
 
+/// Where it acts.
+Stage stageOf(const ChosenFilter& chosen);
+/// Whether a list has filters of that stage.
+bool hasStage(const std::vector<ChosenFilter>& filters, Stage stage);
+
 /// The settings' filter of samples and its values; a null filter where there is none, or it keeps all.
 struct ChosenSampleFilter {
     const SampleFilter* filter = nullptr;
     std::vector<float> values;
 };
 ChosenSampleFilter sampleFilterOf(const Settings& settings);
+/// The same of a term; a null filter, too, where it is on others alone.
+ChosenSampleFilter sampleFilterOf(const Settings& settings, const Target& term);
 
-/// Declares the settings' filters of the image over a frame's, one after the other. Throws std::logic_error for a
-/// filter that is not registered.
-graph::Handle<Radiance> filteredImage(FrameBuilder& frame, graph::Handle<Radiance> image);
+/// Whether filters of images are on that.
+bool isFiltered(const Settings& settings, const std::string& target);
+/// Declares the settings' filters of images that are on `target` over its image, one after the other. Throws
+/// std::logic_error for a filter that is not registered.
+graph::Handle<Radiance> filteredImage(FrameBuilder& frame, const std::string& target, graph::Handle<Radiance> image);
 
 } // namespace wedge::render

@@ -172,6 +172,17 @@ void FrameBuilder::count(const graph::Version& counted, bool everywhere, graph::
     }
 }
 
+graph::Handle<Radiance> FrameBuilder::sumOfParts(const graph::Argument& p, const char* name,
+    const graph::Handle<Radiance>& emission, const graph::Handle<Radiance>& direct,
+    const graph::Handle<Radiance>& indirect)
+{
+    auto sum = graph.plane<Radiance>(name, graph::vectors);
+    pixels("composite", PassKind::Composite, { "frame/sums.cl", "addAll" },
+        { p, reads("emission", emission), reads("direct", direct), reads("indirect", indirect),
+            graph::writes("beauty", sum) });
+    return sum;
+}
+
 void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step, std::vector<graph::Argument> uses)
 {
     graph.add({ .name = std::move(name),

@@ -95,6 +95,7 @@ struct Sum {
     graph::Handle<Radiance> filtered, noisy;
     graph::Handle<Deviation> deviation;
     graph::Handle<Value> variance; ///< gathered, of terms that do; where there are any
+    graph::Handle<Radiance> change; ///< by filters that are on its terms; where there are any
 };
 /// What a frame counts: of all terms, of indirect light, of all rays but the camera's, and of those of paths.
 template <class Kind>
@@ -242,6 +243,10 @@ struct FrameBuilder {
     /// of it, where that is wanted; null: there is none. mask: pixels that do not count have 0 there.
     void count(const graph::Version& counted, bool everywhere, graph::Handle<Tally>& tally,
         graph::Handle<Count>* plane = nullptr, const std::optional<graph::Version>& mask = {});
+    /// Emission, direct and indirect light together. p: as kernels of pixels have it.
+    graph::Handle<Radiance> sumOfParts(const graph::Argument& p, const char* name,
+        const graph::Handle<Radiance>& emission, const graph::Handle<Radiance>& direct,
+        const graph::Handle<Radiance>& indirect);
     /// A step on the host, whatever is wanted.
     void host(std::string name, const std::function<void(graph::Run&)>& step, std::vector<graph::Argument> uses = {});
     /// Fills planes with zeros.

@@ -75,10 +75,27 @@ void FrameGraph::showTally(FrameBuilder& frame, const std::string& name, const s
     outputs_.add(name, tally);
 }
 
+bool FrameGraph::showsParts() const { return keepsLayers_ || hasStage(settings_.filters, Stage::Frame); }
+
+void FrameGraph::filterParts(FrameBuilder& frame)
+{
+    const auto shown = [this](const std::string& name) {
+        return graph::Handle<Radiance> { graph::Version { outputs_.find(name)->version } };
+    };
+    if (hasStage(settings_.filters, Stage::Frame)) {
+        for (const char* part : { targets::direct, targets::indirect }) {
+            outputs_.replace(part, filteredImage(frame, part, shown(part)), Where::Everywhere);
+        }
+        outputs_.replace("beauty",
+            frame.sumOfParts(frame.rectangle(frame.analysisParams()), "beauty of filtered parts", shown("emission"),
+                shown(targets::direct), shown(targets::indirect)));
+    }
+    outputs_.replace("beauty", filteredImage(frame, targets::image, shown("beauty")));
+}
+
 void FrameGraph::finish(FrameBuilder& frame)
 {
-    outputs_.replace("beauty",
-        filteredImage(frame, graph::Handle<Radiance> { graph::Version { outputs_.find("beauty")->version } }));
+    filterParts(frame);
     if (distributed_) {
         showTally(frame, "samplesTally", "samples", Within::Surfaces);
         showTally(frame, "indirectTally", "indirectSamples", Within::Surfaces);

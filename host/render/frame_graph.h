@@ -42,11 +42,15 @@ protected:
         const graph::Handle<Metres>& beta, const graph::Handle<Metres>& pixelSize);
     /// The same of all terms, where frames are analysed.
     void showWidths(FrameBuilder& frame, const DistributedSamples& samples, const graph::Handle<Metres>& pixelSize);
-    /// Once all of outputs_ are there: filters the beauty as the settings say, wants them, and shows what statistics
-    /// are made of, sums over pixels by the names that Renderer::countWork() knows.
+    /// Whether direct and indirect light, and what is emitted, are outputs of their own: for layers, or filters of
+    /// them.
+    bool showsParts() const;
+    /// Once all of outputs_ are there: filters parts and the beauty as the settings say, wants them, and shows what
+    /// statistics are made of, sums over pixels by the names that Renderer::countWork() knows.
     void finish(FrameBuilder& frame);
 
 private:
+    void filterParts(FrameBuilder& frame);
     enum class Within { Image, Output, Surfaces }; ///< all pixels, those that are shown, and those that show something
     /// Of an output, a plane of counts, or a list of which all counts.
     void showTally(FrameBuilder& frame, const std::string& name, const std::string& output, Within within);

@@ -13,13 +13,14 @@ void Outputs::add(Output output)
     all_.push_back(std::move(output));
 }
 
-void Outputs::replace(const std::string& name, const graph::Version& version)
+void Outputs::replace(const std::string& name, const graph::Version& version, std::optional<Where> where)
 {
     const auto found = std::ranges::find_if(all_, [&](const Output& each) { return each.name() == name; });
     if (found == all_.end()) {
         throw std::logic_error("a frame has no output \"" + name + "\"");
     }
     found->version = version;
+    found->where = where.value_or(found->where);
 }
 
 const Output* Outputs::find(const std::string& name) const

@@ -45,8 +45,8 @@ public:
     {
         add({ layer, {}, version, where, join });
     }
-    /// Shows another version in the place of one that there is.
-    void replace(const std::string& name, const graph::Version& version);
+    /// Shows another version in the place of one that there is; where: where that means something, if that changes.
+    void replace(const std::string& name, const graph::Version& version, std::optional<Where> where = {});
     const std::vector<Output>& all() const { return all_; }
     /// Of that name; null where there is none.
     const Output* find(const std::string& name) const;

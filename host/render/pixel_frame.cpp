@@ -1,5 +1,6 @@
 #include "host/render/pixel_frame.h"
 
+#include "host/render/filter_chain.h"
 #include "host/render/filters/fallback.h"
 #include "host/render/frame_filter.h"
 
@@ -16,7 +17,7 @@ using graph::writes;
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, false)
-    , apart_(keepLayers || filter != nullptr)
+    , apart_(showsParts() || filter != nullptr)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
@@ -57,6 +58,11 @@ void PixelFrame::show()
     if (keepsLayers_ || std::ranges::any_of(terms_, &Term::ofLobes)) {
         outputs_.add("specular", s.specular); // pixels that have some are sampled for more terms
     }
+    if (showsParts()) {
+        outputs_.add("emission", s.emission);
+        outputs_.add("direct", t.direct.filtered, Where::OnSurfaces);
+        outputs_.add("indirect", t.indirect.filtered, Where::OnSurfaces);
+    }
     if (keepsLayers_) {
         outputs_.add("albedo", s.diffuse, Where::OnSurfaces);
         outputs_.add("normal", s.normal, Where::OnSurfaces);
@@ -64,12 +70,9 @@ void PixelFrame::show()
         outputs_.add("origin", s.origin);
         outputs_.add("depth", s.depth);
         outputs_.add("pixelSize", s.pixelSize);
-        outputs_.add("emission", s.emission);
         outputs_.add("samples", t.samples, Where::OnSurfaces);
         outputs_.add("rays", t.rays);
-        outputs_.add("direct", t.direct.filtered, Where::OnSurfaces);
         outputs_.add("directNoisy", t.direct.noisy, Where::OnSurfaces);
-        outputs_.add("indirect", t.indirect.filtered, Where::OnSurfaces);
         outputs_.add("indirectNoisy", t.indirect.noisy, Where::OnSurfaces);
     }
     finish(f_);
@@ -116,6 +119,10 @@ void PixelFrame::addTerms(Part part)
         sum.variance = graph_.plane<Value>("gathered variance", shortFloats);
         f_.zero(sum.variance);
     }
+    if (hasStage(settings_.filters, Stage::Terms)) {
+        sum.change = graph_.plane<Radiance>("change by filters of terms", graph::vectors);
+        f_.zero(sum.change);
+    }
     for (const Term& term : terms_) {
         if (term.part == part) {
             const std::unique_ptr<PixelTerm> declared = term.inPixels(f_);
@@ -141,7 +148,7 @@ void PixelFrame::addUnfiltered(const Unfiltered& added)
     added.sample(f_, pixels, radiance);
     pixels.countRays();
     Sum& sum = f_.totals.direct;
-    f_.pixels("composite", PassKind::Composite, { "frame/unfiltered.cl", "addUnfiltered" },
+    f_.pixels("composite", PassKind::Composite, { "frame/sums.cl", "addUnfiltered" },
         { f_.rectangle(f_.analysisParams()), reads("radiance", radiance), updates("direct", sum.filtered),
             updates("directNoisy", sum.noisy) });
     if (keepsLayers_ && !added.layer.empty()) {
@@ -154,7 +161,7 @@ void PixelFrame::addReflected(
 {
     auto shares = graph_.plane<Share>("share of own samples", graph::pairs);
     auto reflected = graph_.plane<Radiance>("fallen back", graph::vectors);
-    const bool writesOwn = fallsBack && apart_;
+    const bool changed = sum.change.graph != 0, writesOwn = (fallsBack || changed) && apart_;
     if (fallsBack) {
         f_.zero(shares);
         // What was stopped has not the counts that the parts of samples were made for.
@@ -177,6 +184,7 @@ void PixelFrame::addReflected(
             reads("objectId", f_.surfaces.objectId),
             fallsBack ? reads("shares", shares) : graph::absent("shares", graph::pairs),
             fallsBack ? reads("noisy", sum.noisy) : graph::absent("noisy", graph::vectors),
+            changed ? reads("change", sum.change) : graph::absent("change", graph::vectors),
             writesOwn ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors),
             writes("sum", out) });
     if (writesOwn) {

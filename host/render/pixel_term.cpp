@@ -102,10 +102,7 @@ void PixelTerm::plain()
     addPlain();
 }
 
-ChosenSampleFilter PixelTerm::sampleFilter() const
-{
-    return isOfSampleFilters() ? sampleFilterOf(s_) : ChosenSampleFilter {};
-}
+ChosenSampleFilter PixelTerm::sampleFilter() const { return sampleFilterOf(s_, target()); }
 
 void PixelTerm::filterSamples()
 {

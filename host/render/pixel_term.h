@@ -73,9 +73,9 @@ protected:
     virtual CountsFrom countsFrom() const = 0;
     /// Whether samples leave the mean of a part of them, and means() makes that of all; else they leave the latter.
     virtual bool keepsParts() const = 0;
-    /// Whether filters of samples (filter_chain.h) are of this term.
-    virtual bool isOfSampleFilters() const { return false; }
-    /// The settings' filter of samples, of terms that have one.
+    /// What filters can be on it by (filter_chain.h).
+    virtual Target target() const { return {}; }
+    /// The settings' filter of samples that is on it.
     ChosenSampleFilter sampleFilter() const;
     /// Adds what else becomes of samples, and what that is handed.
     virtual void keepMore(std::vector<graph::Sink>& /*sinks*/, Arguments& /*sunk*/) { }

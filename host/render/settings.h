@@ -107,6 +107,7 @@ enum class Temporal {
 struct ChosenFilter {
     std::string name;
     std::vector<float> values;
+    std::vector<std::string> on = {}; ///< what it filters, by names that it may; none: what it does where nobody says
 
     bool operator==(const ChosenFilter&) const = default;
 };

@@ -42,9 +42,10 @@ struct SampleShape {
     bool analysed = false; ///< filters and counts of their own
     bool published = false; ///< as thesis chapter 5 has them
     bool layers = false; ///< what only they show, too
-    /// Direct and indirect light, filtered and not, and what reflects them: of frames whose layers are read, and of
-    /// those that are filtered over time.
+    /// Direct and indirect light, filtered and not, and what reflects them: of frames whose layers are read, or parts
+    /// filtered, and of those that are filtered over time.
     bool apart = false;
+    bool parts = false; ///< direct and indirect light and what is emitted are outputs of their own
     /// Terms' counts, and sums of all samples, which layers show, steps of a progressive frame go on with, and other
     /// than the default analysis asks for; else pixels keep what one image is made of.
     bool full = false;
@@ -96,9 +97,9 @@ public:
     /// The samples of a wave's receivers, added to their pixels. counts, hits: of primary samples.
     virtual void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) = 0;
-    /// Whether filters of samples (filter_chain.h) are of this term; of those that are, samples of probes, one of
-    /// each receiver: sums, as lists.
-    virtual bool isOfSampleFilters() const { return false; }
+    /// What filters can be on it by (filter_chain.h).
+    virtual Target target() const { return {}; }
+    /// Of terms that filters of samples can be on, samples of probes, one of each receiver: sums, as lists.
     virtual graph::Handle<Sums> probe(Waves& /*waves*/, const PrimaryCounts& /*counts*/) { return {}; }
     /// means.beta, metres, from what was measured.
     virtual void widths() = 0;

@@ -162,6 +162,35 @@ std::optional<std::string> TableReader::choice(const std::string& key, const std
     return value;
 }
 
+std::vector<std::string> TableReader::choices(const std::string& key, const std::vector<std::string>& known)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return {};
+    std::vector<std::string> out;
+    const auto add = [&](const toml::node& element) {
+        const auto value = element.value_exact<std::string>();
+        if (!value)
+            wrongType(key, element, "a name, or a list of names");
+        if (std::find(known.begin(), known.end(), *value) == known.end()) {
+            const std::string near = nearest(*value, { known.begin(), known.end() });
+            fail(key, "is unknown", fmt::format("'{}'", *value),
+                near.empty() ? fmt::format("use some of: {}", fmt::join(known, ", "))
+                             : fmt::format("write '{}'; there are: {}", near, fmt::join(known, ", ")));
+        }
+        out.push_back(*value);
+    };
+    if (const toml::array* list = node->as_array()) {
+        for (const toml::node& element : *list)
+            add(element);
+        if (list->empty())
+            fail(key, "is empty", "[]", "leave it out, or give a name");
+    } else {
+        add(*node);
+    }
+    return out;
+}
+
 std::optional<std::vector<double>> TableReader::numbers(const std::string& key, std::size_t least, std::size_t most)
 {
     const toml::node* node = find(key);

@@ -4,6 +4,7 @@
 #define WEDGE_FALLEN_BACK_H
 
 #include "core/vector16.h"
+#include "shared/vec.h"
 
 #define WEDGE_FALLEN_BACK(V, name)                                                                                     \
     WEDGE_INLINE V name(V f, V u, V own, V ratio)                                                                      \
@@ -13,5 +14,12 @@
     }
 WEDGE_FALLEN_BACK(float, fallenBack)
 WEDGE_FALLEN_BACK(float16, fallenBack16)
+
+/// share: own, ratio
+WEDGE_INLINE Vec3 fallenBackVec(Vec3 f, Vec3 u, float2 share)
+{
+    return vec3(fallenBack(f.x, u.x, share.x, share.y), fallenBack(f.y, u.y, share.x, share.y),
+        fallenBack(f.z, u.z, share.x, share.y));
+}
 
 #endif

@@ -2,6 +2,7 @@
 // added up over lights, then with what surfaces and background emit.
 #include "analysis/deviation.h"
 #include "core/fallen_back.h"
+#include "core/finite.h"
 #include "core/packed_planes.h"
 #include "light/light_sample.h"
 #include "light/unshadowed.h"
@@ -205,8 +206,44 @@ __kernel void addIndirect(PARAMETERS)
 }
 #endif
 
+/// What arrives of a term, as an image. Pixels without the term have no number there, which filters of images leave
+/// out. in   value: 3 planes; taken
+#include "pass/arrivingAtPixels.h"
+#ifdef PASS_arrivingAtPixels
+__kernel void arrivingAtPixels(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const int16 has = loadIdBlock(taken, i) != 0u;
+    for (uint plane = 0u; plane < 3u; ++plane) {
+        const int j = i + (int)(plane * p.planeSize);
+        const float16 v = loadBlock(value, j);
+        vstore16(numberIf16(has, component == WEDGE_COMPONENT_AMBIENT ? 1.0f - v : v), 0, arrives + j);
+    }
+}
+#endif
+
+/// What filters change of what arrives of a term, reflected, added to the change of all.
+/// in      before, after: 3 planes; taken
+/// in out  change: 3 planes
+#include "pass/addTermChange.h"
+#ifdef PASS_addTermChange
+__kernel void addTermChange(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const int16 has = loadIdBlock(taken, i) != 0u;
+    const float16 zero = (float16)(0.0f);
+    const Vec3x16 off = sub16(loadVecBlock(after, p.planeSize, i), loadVecBlock(before, p.planeSize, i));
+    Vec3x16 more = mul16(reflectanceOf(p, component, reflectance, i), off);
+    more.x = has ? more.x : zero;
+    more.y = has ? more.y : zero;
+    more.z = has ? more.z : zero;
+    addBlock(change, p.planeSize, i, (float16)(1.0f), more);
+}
+#endif
+
 /// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each). Where there are shares, of
-/// ownShares(), light falls back to `noisy`, and is kept as that in `reflected` where somebody asks for it.
+/// ownShares(), light falls back to `noisy`; `change` is what filters of terms change of it. It is kept as that in
+/// `reflected` where somebody asks for it.
 #include "pass/addReflected.h"
 #ifdef PASS_addReflected
 __kernel void addReflected(PARAMETERS)
@@ -221,6 +258,9 @@ __kernel void addReflected(PARAMETERS)
         float16 shown = loadBlock(light, j);
 #if HAS_shares
         shown = fallenBack16(shown, loadBlock(noisy, j), own, ratio);
+#endif
+#if HAS_change
+        shown = max16(shown + loadBlock(change, j), (float16)(0.0f));
 #endif
 #if HAS_reflected
         vstore16(shown, 0, reflected + j);

@@ -1,10 +1,11 @@
-// Light that is added as it is sampled, where the pixels are the receivers.
+// Sums of parts of an image.
 #include "core/pixel.h"
+#include "shared/distributed.h"
 #include "shared/filter_params.h"
 #include "shared/vec.h"
 #include "shared/wedge.h"
 
-/// Adds what surfaces reflect of it to both images of direct light (3 planes each).
+/// Adds what surfaces reflect of light that is added as it is sampled to both images of direct light (3 planes each).
 #include "pass/addUnfiltered.h"
 #ifdef PASS_addUnfiltered
 __kernel void addUnfiltered(PARAMETERS)
@@ -14,5 +15,16 @@ __kernel void addUnfiltered(PARAMETERS)
     const Vec3 more = loadVec(radiance, n, i);
     storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), more));
     storeVec(directNoisy, n, i, vecAdd(loadVec(directNoisy, n, i), more));
+}
+#endif
+
+/// beauty = emission + direct + indirect (3 planes each).
+#include "pass/addAll.h"
+#ifdef PASS_addAll
+__kernel void addAll(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
 }
 #endif

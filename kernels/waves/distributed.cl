@@ -3,6 +3,7 @@
 #include "core/blur.h"
 #include "core/distributed_pixel.h"
 #include "core/fallen_back.h"
+#include "core/finite.h"
 #include "core/formats.h"
 #include "core/pixel.h"
 #include "shared/bsdf.h"
@@ -326,9 +327,7 @@ __kernel void addFilteredTerm(PARAMETERS)
                 const Vec3 k = LOAD_texture(n, i);
                 u.x = u.y = u.z = luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f);
             }
-            e.x = fallenBack(e.x, u.x, share.x, share.y);
-            e.y = fallenBack(e.y, u.y, share.x, share.y);
-            e.z = fallenBack(e.z, u.z, share.x, share.y);
+            e = fallenBackVec(e, u, share);
         }
 #endif
         term = vecMul(LOAD_filteredTexture(n, i), e);
@@ -355,6 +354,42 @@ __kernel void addTerm(PARAMETERS)
 }
 #endif
 
+/// What arrives, as it is shown: where it is taken apart filtered, falling back to the term's own; elsewhere its own.
+/// Pixels that reflect none of it have no number there, which filters of images leave out.
+#include "pass/arrivingAtWaves.h"
+#ifdef PASS_arrivingAtWaves
+__kernel void arrivingAtWaves(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    Vec3 e = LOAD_value(n, i);
+#if HAS_filtered
+    if (beta[i] >= 0.0f) {
+        const float2 share = LOAD_shares(n, i);
+        const Vec3 found = loadVec(filtered, n, i);
+        e = share.x > 0.0f || share.y != 0.0f ? fallenBackVec(found, e, share) : found;
+    }
+#endif
+    storeVec(arrives, n, i, vecIf(luminance(LOAD_texture(n, i)) > 0.0f, e));
+}
+#endif
+
+/// radiance += what filters change of what arrives, reflected.
+#include "pass/addChange.h"
+#ifdef PASS_addChange
+__kernel void addChange(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    const Vec3 k = LOAD_texture(n, i);
+    if (luminance(k) > 0.0f) {
+        const Vec3 more = vecMul(k, vecSub(loadVec(after, n, i), loadVec(before, n, i)));
+        const Vec3 sum = vecAdd(loadVec(radiance, n, i), more);
+        storeVec(radiance, n, i, vec3(fmax(sum.x, 0.0f), fmax(sum.y, 0.0f), fmax(sum.z, 0.0f)));
+    }
+}
+#endif
+
 /// sum += image (3 planes each).
 #include "pass/addImage.h"
 #ifdef PASS_addImage
@@ -362,16 +397,5 @@ __kernel void addImage(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
-}
-#endif
-
-/// beauty = emission + direct + indirect (3 planes each).
-#include "pass/addAll.h"
-#ifdef PASS_addAll
-__kernel void addAll(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    const uint n = p.planeSize;
-    storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
 }
 #endif

@@ -165,6 +165,8 @@ check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 -
 mapfile -t filters < <("$wedge" render --help | sed -n '/^Filters of the image/,/^$/ s/^  \([a-z][a-z-]*\) .*/--add-filter=\1/p' | sed 's/=colour$/=colour:red=0.5/')
 check image_filters "$scenes/penumbra.toml" --traversal wide --size 19x13 --method mc --spp 1 "${filters[@]}"
 # Filters of samples: stored with the analysis and twice, and without; with layers, which ask for all neighbours, and without.
+check term_filters "$scenes/materials.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --add-filter box:on=indirectDiffuse+indirectGlossy --add-filter gaussian:on=direct
+check term_filters_antialiased "$scenes/materials.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --antialias --add-filter box:on=indirectDiffuse --add-filter box:on=direct+indirect
 check sample_density "$scenes/materials.toml" --traversal wide --size 9x5 --method mc --spp 3 --bounces 1 --add-filter path-density
 check sample_density_image "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --spp 18 --bounces 1 --add-filter path-density
 check sample_clamp "$scenes/penumbra.toml" --traversal scalar --size 7x3 --method mc --spp 2 --bounces 1 --add-filter clamp
