@@ -262,6 +262,9 @@ void DistributedSamples::show(Outputs& to)
     to.add("indirectSamples", t.indirectSamples, Where::OnSurfaces, Join::Sum);
     to.add("raysTraced", t.rays, Where::Everywhere, Join::SumOfTraced);
     to.add("pathRays", t.pathRays, Where::Everywhere, Join::SumOfTraced);
+    if (t.notFinite.graph != 0) {
+        to.add("notFinite", t.notFinite, Where::OnSurfaces, Join::Sum);
+    }
     if (!shape_.layers) {
         return;
     }
