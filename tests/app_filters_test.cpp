@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include <nlohmann/json.hpp>
+
 namespace wedge::app::test {
 namespace {
 
@@ -69,6 +71,64 @@ TEST_CASE("a scene's filters and --add-filter do the same, and the image says wh
     CHECK(appliedFilters(place) == "median:radius=1,on=direct");
     CHECK(beauty(place, "scene.toml", { "--no-filters", "--add-filter", "median" }) != plain);
     CHECK(appliedFilters(place) == "median:radius=1");
+}
+
+TEST_CASE("samples of indirect light that are not finite are counted in the report and warned of")
+{
+    const Workplace place;
+    place.write("room.obj",
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+        "f 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 4 3 7 8\nf 1 4 8 5\nf 2 3 7 6\n");
+    // What its walls reflect of a light is what floats just hold, and the sum over bounces is more.
+    const auto writeRoom = [&](const std::string& intensity) {
+        place.write("room.toml",
+            "[camera]\neye = [0, -2e-5, 4e-5]\nlook_at = [0, -1.5e-5, -5e-5]\n[[material]]\nname = \"a\"\n"
+            "diffuse = 1\n[[mesh]]\nfile = \"room.obj\"\nmaterial = \"a\"\ntransform = { scale = 5.8e-5 }\n"
+            "[[light]]\ntype = \"point\"\nposition = [0, 0, 0]\nintensity = "
+                + intensity + "\n");
+    };
+    constexpr int samples = 32 * 24 * 4;
+    const std::string warning = "wedge: warning: samples of indirect light that are not finite, which are left out: ";
+    const auto rendered = [&](const Arguments& more) {
+        Arguments arguments = { "render", "room.toml", "--method", "mc", "--spp", "4", "--bounces", "12", "--size",
+            "32x24", "--report", "r.json", "-o", "a.exr" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(arguments);
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return outcome;
+    };
+    const auto frame = [&] { return nlohmann::json::parse(place.text("r.json")).at("frames").at(0); };
+    writeRoom("1e30");
+    for (const char* more : { "", "--antialias", "--progressive" }) {
+        CAPTURE(more);
+        const Arguments kind = *more != 0 ? Arguments { more } : Arguments {};
+        Arguments filtered = kind;
+        filtered.insert(filtered.end(), { "--add-filter", "path-density" });
+        const Outcome outcome = rendered(filtered);
+        const int count = frame().at("samples").at("not_finite");
+        CHECK(outcome.err == warning + std::to_string(count) + "\n");
+        CHECK(count > 0.9 * samples);
+        CHECK(count <= samples);
+        filtered.emplace_back("--quiet");
+        CHECK(rendered(filtered).err.empty());
+        CHECK(rendered(kind).err.empty());
+        CHECK_FALSE(frame().contains("samples"));
+    }
+    // A sequence warns once, of all of its frames.
+    const Outcome sequence =
+        place.run({ "render", "room.toml", "--method", "mc", "--spp", "4", "--bounces", "12", "--size", "32x24",
+            "--add-filter", "path-density", "--frames", "0:1", "--report", "r.json", "-o", "a.%04d.exr" });
+    int count = 0;
+    const nlohmann::json report = nlohmann::json::parse(place.text("r.json"));
+    for (const nlohmann::json& each : report.at("frames")) {
+        count += each.at("samples").at("not_finite").get<int>();
+    }
+    CHECK(sequence.err == warning + std::to_string(count) + "\n");
+    CHECK(count > 1.8 * samples);
+    writeRoom("1e-9");
+    CHECK(rendered({ "--add-filter", "clamp" }).err.empty());
+    CHECK(frame().at("samples").at("not_finite") == 0);
 }
 
 TEST_CASE("what is wrong with filters is said in one line, with the nearest name or the range")

@@ -166,7 +166,7 @@ TEST_CASE("a blur of what arrives leaves textures sharp, and knows nothing of pi
 {
     onEveryDevice([](const device::Device& device) {
         scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/cornell.toml");
-        scene.camera.verticalFov *= 1.3; // pixels beyond the box see nothing
+        scene.camera.verticalFov *= 1.3f; // pixels beyond the box see nothing
         render::Renderer renderer(scene, device, renderOptions());
         const render::Settings s = frameOf(false, false);
         renderer.render(s, {}, true);

@@ -47,12 +47,16 @@ struct Binned {
 /// What a pixel's bins are to hold.
 struct ExpectedBins {
     std::vector<Binned> samples;
+    std::uint32_t notFinite = 0; ///< samples of receivers whose mean is no number
     bool uncertain = false; ///< a sample is so near to the end of a bin that rounding decides
 
-    void add(const glm::dvec3& radiance, double exposure, double weight)
+    /// Adds the mean of so many samples.
+    void add(const glm::dvec3& radiance, std::uint32_t count, double exposure, double weight)
     {
-        if (!isFinite(glm::dvec3(glm::vec3(radiance))))
+        if (!isFinite(glm::dvec3(glm::vec3(radiance)))) {
+            notFinite += count;
             return;
+        }
         const double lightness = labOracle(exposure * radiance).x / 20;
         std::size_t bin = 0;
         for (const double end : binEnds) {
@@ -99,6 +103,7 @@ public:
         , before_(a.waves.layout, binsOfPixel * numbersOfBin, elsewhere)
         , exposure_(a.waves.bench.buffer(std::vector<float> { exposed }))
         , bins_(buffer(fill))
+        , notFinite_(a.waves.bench.buffer(std::vector<std::uint32_t>(a.waves.layout.size, countedBefore)))
     {
     }
 
@@ -114,11 +119,12 @@ public:
                 const glm::dvec3 texture = found.reflectance(a.points[r]);
                 if (a.points[r].object != 0 && samples > 0)
                     at(a.lists.x(r), a.lists.y(r))
-                        .add(found.irradiance(a.points[r]), exposure,
+                        .add(found.irradiance(a.points[r]), samples, exposure,
                             a.published != 0 ? 1 : samples * luminanceOf(texture + leastTexture));
             }
             accumulatePaths(a, term, false, found.reflectance, found.irradiance,
-                { plane("bins", bins_, render::sampleBins), plane("exposure", exposure_) });
+                { plane("bins", bins_, render::sampleBins), plane("exposure", exposure_),
+                    plane("notFinite", notFinite_) });
             accumulateSurfaces(a, surfaces);
         }
         const auto values = a.read(term.value);
@@ -131,6 +137,7 @@ public:
     void check()
     {
         const Planes<std::uint16_t> found = read();
+        const Planes<std::uint32_t> notFinite = a.read(notFinite_);
         int checked = 0, skipped = 0, filled = 0;
         everyPixelOf({ 0, 0, width, height }, [&](int x, int y) {
             CAPTURE(x);
@@ -138,8 +145,10 @@ public:
             if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1) {
                 for (std::size_t k = 0; k < binsOfPixel * numbersOfBin; ++k)
                     REQUIRE(found.at(x, y, k) == elsewhere);
+                REQUIRE(notFinite.at(x, y) == countedBefore);
                 return;
             }
+            REQUIRE(notFinite.at(x, y) == countedBefore + at(x, y).notFinite);
             ++(at(x, y).uncertain ? skipped : checked);
             for (std::size_t b = 0; !at(x, y).uncertain && b < binsOfPixel; ++b)
                 filled += checkBin(binsAt(found, x, y)[b], at(x, y), b) ? 1 : 0;
@@ -155,6 +164,7 @@ public:
 
 private:
     static constexpr std::uint16_t elsewhere = 0x1234;
+    static constexpr std::uint32_t countedBefore = 5;
 
     device::Buffer<std::uint16_t> buffer(const Bin& fill)
     {
@@ -188,12 +198,13 @@ private:
     Planes<std::uint16_t> before_;
     device::Buffer<float> exposure_;
     device::Buffer<std::uint16_t> bins_;
+    device::Buffer<std::uint32_t> notFinite_;
 };
 
 } // namespace
 
 TEST_CASE("accumulatePaths: of each bin count, weighted mean and mean weight, in one wave or in three; what is no "
-          "number is in none")
+          "number is in none, and counted")
 {
     onEveryDevice([](const device::Device& device) {
         for (const std::uint32_t published : { 0u, 1u })

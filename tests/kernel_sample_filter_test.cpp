@@ -363,5 +363,8 @@ TEST_CASE("keepByDensity: where all of a pixel's samples are isolated the least 
         CHECK(found.sums.vector(14, 14) == glm::dvec3(0));
         CHECK(found.excess.vector(14, 14) == glm::dvec3(0));
         CHECK(found.taken.at(14, 14) == 2);
+        CHECK(found.notFinite.at(14, 14) == 2);
+        CHECK(found.notFinite.at(4, 4) == 1);
+        CHECK(found.notFinite.at(14, 4) == 0);
     });
 }

@@ -143,11 +143,12 @@ private:
 /// What a kernel that keeps samples has made; of planes that its frame has not, nothing.
 struct KeptPlanes {
     Planes<float> sums, excess, parts, density;
-    Planes<std::uint32_t> taken;
+    Planes<std::uint32_t> taken, notFinite;
 };
 
 /// In planes that nothing is written to.
 constexpr float untouched = 7.0f;
+constexpr std::uint32_t uncounted = 77;
 
 /// Runs a kernel that keeps samples over the pixels of a window, band by band of so many rows, as StoredSamples does:
 /// where a band has been drawn, pixels are filtered around which all has been.
@@ -160,6 +161,7 @@ inline KeptPlanes keep(PassBench& bench, const SampleField& field, const image::
     bench.plane("sums", Planes<float>(bench.layout, 4, untouched));
     bench.plane("excess", Planes<float>(bench.layout, 3, untouched));
     bench.plane("taken", Planes<std::uint32_t>(bench.layout, 1, 0u));
+    bench.plane("notFinite", Planes<std::uint32_t>(bench.layout, 1, uncounted));
     if (bench.has("parts"))
         bench.plane("parts", Planes<float>(bench.layout, 3, untouched));
     if (bench.has("density"))
@@ -183,14 +185,15 @@ inline KeptPlanes keep(PassBench& bench, const SampleField& field, const image::
     const auto floats = [&](const char* name) {
         return bench.has(name) ? bench.pixels<float>(name) : Planes<float>(bench.layout, 0, 0);
     };
-    return { floats("sums"), floats("excess"), floats("parts"), floats("density"),
-        bench.pixels<std::uint32_t>("taken") };
+    return { floats("sums"), floats("excess"), floats("parts"), floats("density"), bench.pixels<std::uint32_t>("taken"),
+        bench.pixels<std::uint32_t>("notFinite") };
 }
 
 /// What a pixel's samples come to.
 struct KeptOracle {
     glm::dvec3 mean { 0 }, plain { 0 }, part { 0 };
     double squared = 0; ///< mean of squared luminance
+    std::uint32_t notFinite = 0; ///< samples
     double error = 0; ///< of a mean, for errors of the weights, times the largest sample
 };
 
@@ -209,8 +212,10 @@ inline KeptOracle keptOf(const std::vector<StoredSample>& samples, const std::ve
     double sum = 0, partSum = 0, count = 0, largest = 0;
     for (std::size_t j = 0; j < samples.size(); ++j) {
         const glm::dvec3& v = samples[j].radiance;
-        if (!isFinite(v))
+        if (!isFinite(v)) {
+            ++out.notFinite;
             continue;
+        }
         const double own = madeUp ? weights[j] : 1;
         out.mean += weights[j] * v;
         out.squared += weights[j] * std::pow(luminanceOf(v), 2);
@@ -240,6 +245,7 @@ inline void requireKept(const KeptPlanes& found, int x, int y, std::size_t count
     CAPTURE(expected.error);
     const double n = static_cast<double>(count);
     REQUIRE(found.taken.at(x, y) == count);
+    REQUIRE(found.notFinite.at(x, y) == expected.notFinite);
     for (int k = 0; k < 3; ++k) {
         CAPTURE(k);
         CAPTURE(expected.mean[k]);
@@ -265,6 +271,7 @@ inline void requireUntouched(const KeptPlanes& found, int x, int y)
     CAPTURE(x);
     CAPTURE(y);
     REQUIRE(found.taken.at(x, y) == 0);
+    REQUIRE(found.notFinite.at(x, y) == uncounted);
     for (std::size_t k = 0; k < 4; ++k)
         REQUIRE(found.sums.at(x, y, k) == untouched);
     for (std::size_t k = 0; k < 3; ++k)

@@ -303,6 +303,7 @@ void RenderJob::render()
         write();
     }
     finishImages();
+    warnOfSamples();
     writeReport();
 }
 
@@ -365,15 +366,29 @@ void RenderJob::finishImages()
     extras_.files = images_.written();
 }
 
+std::vector<render::FrameStatistics> RenderJob::shown() const
+{
+    return options_.frames ? rendered_ : std::vector { statistics_ };
+}
+
+void RenderJob::warnOfSamples() const
+{
+    std::uint64_t count = 0;
+    for (const render::FrameStatistics& frame : shown()) {
+        count += frame.notFiniteSamples.value_or(0);
+    }
+    if (count > 0 && !options_.quiet) {
+        warn(fmt::format("samples of indirect light that are not finite, which are left out: {}", count));
+    }
+}
+
 void RenderJob::writeReport()
 {
     if (options_.report.empty()) {
         return;
     }
     try {
-        writeText(options_.report,
-            render::jsonReport(
-                *renderer_, settings_, options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
+        writeText(options_.report, render::jsonReport(*renderer_, settings_, shown(), extras_));
         reported_ = true;
     } catch (const Error& error) {
         failures_.emplace_back(error.what());

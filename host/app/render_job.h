@@ -70,6 +70,9 @@ private:
     std::string endOfSteps() const;
     void write();
     void finishImages();
+    /// Those of all images that were written: of a sequence, several.
+    std::vector<render::FrameStatistics> shown() const;
+    void warnOfSamples() const;
     void writeReport();
     void finish();
 

@@ -123,6 +123,7 @@ int RenderJob::runFrames()
         renderer_->filterFrames(temporal_);
     }
     runVisits();
+    warnOfSamples();
     writeReport();
     if (!failures_.empty()) {
         throw Errors(failures_);

@@ -288,6 +288,9 @@ void DistributedSamples::show(Outputs& to)
         to.add("direct", t.direct.filtered, Where::Everywhere, Join::Mean);
         to.add("indirect", t.indirect.filtered, Where::Everywhere, Join::Mean);
     }
+    if (t.notFinite.graph != 0) {
+        to.add("notFinite", t.notFinite, Where::OnSurfaces, Join::Sum);
+    }
     if (!shape_.layers) {
         return;
     }

@@ -130,6 +130,9 @@ void DistributedSamples::keepPixels()
         s.specular = kept<Reflectance>("specular", format);
     }
     Totals& t = f_.totals;
+    if (sampleFilterOf(f_.settings).filter != nullptr) {
+        t.notFinite = kept<Count>("samples not finite", graph::counts);
+    }
     if (shape_.layers) {
         s.depth = kept<Metres>("depth", graph::floats);
         t.samples = kept<Count>("samples", graph::counts);

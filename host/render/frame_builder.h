@@ -97,10 +97,11 @@ struct Sum {
     graph::Handle<Value> variance; ///< gathered, of terms that do; where there are any
     graph::Handle<Radiance> change; ///< by filters that are on its terms; where there are any
 };
-/// What a frame counts: of all terms, of indirect light, of all rays but the camera's, and of those of paths.
+/// What a frame counts: of all terms, of indirect light, of all rays but the camera's, and of those of paths; and where
+/// there is a filter of samples, those of indirect light that it leaves out because they are not finite.
 template <class Kind>
 struct Counted {
-    graph::Handle<Kind> samples, indirectSamples, rays, pathRays;
+    graph::Handle<Kind> samples, indirectSamples, rays, pathRays, notFinite;
 };
 struct Totals : Counted<Count> {
     Sum direct, indirect;

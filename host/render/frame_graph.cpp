@@ -103,6 +103,9 @@ void FrameGraph::finish(FrameBuilder& frame)
         showTally(frame, "pathRaysTally", "pathRays", Within::Image);
         showTally(frame, "primaryTally", "primarySamples", Within::Image);
         showTally(frame, "primaryShownTally", "primarySamples", Within::Output);
+        if (outputs_.find("notFinite") != nullptr) {
+            showTally(frame, "notFiniteTally", "notFinite", Within::Output);
+        }
     }
     auto shaded = graph_.list<Tally>("tally of shaded pixels", tallySums, WEDGE_TALLY_STRIPES);
     auto matte = graph_.list<Tally>("tally of matte pixels", tallySums, WEDGE_TALLY_STRIPES);

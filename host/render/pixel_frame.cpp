@@ -55,6 +55,9 @@ void PixelFrame::show()
     outputs_.add("indirectTally", t.tallies.indirectSamples);
     outputs_.add("raysTally", t.tallies.rays);
     outputs_.add("pathRaysTally", t.tallies.pathRays);
+    if (t.tallies.notFinite.graph != 0) {
+        outputs_.add("notFiniteTally", t.tallies.notFinite);
+    }
     if (keepsLayers_ || std::ranges::any_of(terms_, &Term::ofLobes)) {
         outputs_.add("specular", s.specular); // pixels that have some are sampled for more terms
     }
@@ -100,7 +103,11 @@ void PixelFrame::primary(bool lit)
     t.rays = graph_.plane<Count>("rays", graph::counts);
     const auto tally = [this](const char* name) { return graph_.list<Tally>(name, tallySums, WEDGE_TALLY_STRIPES); };
     t.tallies = { tally("tally of samples"), tally("tally of indirect samples"), tally("tally of rays"),
-        tally("tally of path rays") };
+        tally("tally of path rays"), {} };
+    if (sampleFilterOf(settings_).filter != nullptr) {
+        t.tallies.notFinite = tally("tally of samples not finite");
+        f_.zero(t.tallies.notFinite);
+    }
     t.beauty = graph_.plane<Radiance>("beauty", graph::vectors);
     f_.zero(t.samples, t.tallies.samples, t.tallies.indirectSamples, t.tallies.rays, t.tallies.pathRays);
     f_.fill("camera rays", t.rays, std::uint32_t { 1 });

@@ -144,6 +144,7 @@ void PixelTerm::filterSamples()
         });
     }
     pixels_.countRays();
+    f_.count(stored.notFinite, false, f_.totals.tallies.notFinite);
     stored.spread();
     sums_ = stored.sums;
     taken_ = stored.taken;

@@ -59,6 +59,8 @@ struct FrameStatistics {
     double primarySpp = 1; ///< primary samples a pixel
     double directSpp = 0, indirectSpp = 0; ///< the same of area lights and of indirect terms alone
     std::uint64_t primaryRays = 0, shadowRays = 0, indirectRays = 0;
+    /// Samples of indirect light that are left out because they are not finite; of frames with a filter of samples.
+    std::optional<std::uint64_t> notFiniteSamples;
     std::uint64_t memoryBytes = 0;
 
     /// Analysis, filter and composite as a fraction of the device's time.

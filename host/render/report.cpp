@@ -89,8 +89,12 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
         { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
         { "rays_per_pixel", raysPerPixel(frame, settings) }, { "mrays_s", megaraysPerSecond(frame) },
         { "rays",
-            { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
-        { "passes", passes }, { "memory_bytes", frame.memoryBytes } });
+            { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays },
+                { "indirect", frame.indirectRays } } } });
+    if (frame.notFiniteSamples) {
+        out["samples"] = { { "not_finite", *frame.notFiniteSamples } };
+    }
+    out.update(Json { { "passes", passes }, { "memory_bytes", frame.memoryBytes } });
     return out;
 }
 

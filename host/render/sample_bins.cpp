@@ -43,12 +43,14 @@ void SampleBins::expose(const graph::Handle<Sums>& ofProbes, const graph::Handle
 
 Arguments SampleBins::sunk()
 {
-    return graph::together("samples by brightness", { updates("bins", bins_), reads("exposure", exposure_) });
+    return graph::together("samples by brightness",
+        { updates("bins", bins_), reads("exposure", exposure_), updates("notFinite", frame_.totals.notFinite) });
 }
 
 Arguments SampleBins::notSunk()
 {
-    return graph::together("samples by brightness", { graph::absent("bins", sampleBins), graph::absent("exposure") });
+    return graph::together("samples by brightness",
+        { graph::absent("bins", sampleBins), graph::absent("exposure"), graph::absent("notFinite", graph::counts) });
 }
 
 TermMeans SampleBins::kept(const TermMeans& all, bool layers)

@@ -20,7 +20,8 @@ public:
     bool givesExposure();
     void expose(const graph::Handle<Sums>& ofProbes, const graph::Handle<Count>& takenByProbes);
 
-    /// What receivers are added to: `bins` and `exposure`; and their places in passes of terms without bins.
+    /// What receivers are added to: `bins`, `exposure` and the frame's `notFinite`; and their places in passes of terms
+    /// without bins.
     Arguments sunk();
     static Arguments notSunk();
 

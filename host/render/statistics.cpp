@@ -65,6 +65,9 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     statistics.directSpp = mean(total - indirectTotal, directPixels);
     statistics.indirectSpp = mean(indirectTotal, indirectPixels);
     statistics.sppMean = mean(total, directPixels + indirectPixels);
+    if (frame_->has("notFiniteTally")) {
+        statistics.notFiniteSamples = sumOf("notFiniteTally");
+    }
     queue_.takeRecords();
 }
 

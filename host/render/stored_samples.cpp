@@ -48,14 +48,15 @@ Window rowsFrom(const Window& window, std::int64_t first, std::int64_t last)
 
 StoredSamples::StoredSamples(
     FrameBuilder& frame, ChosenSampleFilter chosen, std::uint32_t perPixel, std::uint32_t first)
-    : excess(frame.graph.plane<Radiance>("light of rejected samples", graph::vectors))
+    : notFinite(frame.graph.plane<Count>("samples not finite", graph::counts))
+    , excess(frame.graph.plane<Radiance>("light of rejected samples", graph::vectors))
     , frame_(frame)
     , chosen_(std::move(chosen))
     , perPixel_(perPixel)
     , first_(first)
     , exposure_(frame.graph.list<Share>("exposure of stored samples", graph::floats, 1))
 {
-    frame.zero(excess);
+    frame.zero(excess, notFinite);
     declareLists();
     if (!probed()) {
         frame.fill("exposure", exposure_, chosen_.filter->exposure(chosen_.values));
@@ -92,6 +93,7 @@ void StoredSamples::takeKept(const StoredSamples& other)
 {
     sums = other.sums;
     taken = other.taken;
+    notFinite = other.notFinite; // of all samples: those that were taken twice count once
     parts = other.parts;
     excess = other.excess;
     density = other.density;
@@ -150,6 +152,7 @@ void StoredSamples::keep()
             chosen_.filter->arguments(chosen_.values, frame_.analysed()),
             graph::together("kept",
                 { updates("sums", sums), updates("excess", excess), updates("taken", taken),
+                    updates("notFinite", notFinite),
                     parts.graph != 0 ? updates("parts", parts) : graph::absent("parts", packedColours),
                     density.graph != 0 ? updates("density", density) : graph::absent("density") })),
         .domain = graph::Domain::Items,

@@ -50,6 +50,7 @@ public:
     graph::Handle<Count> drawn; ///< samples of pixels, whether they have been filtered or not
     graph::Handle<Sums> sums; ///< of what is kept, as if that were all samples
     graph::Handle<Count> taken; ///< samples of pixels that have been filtered
+    graph::Handle<Count> notFinite; ///< those of them that were left out because they are not finite
     graph::Handle<Value> parts; ///< means of a part of those; of no graph: not wanted
     graph::Handle<Radiance> excess; ///< what means lose
     graph::Handle<Share> density; ///< mean isolation; of no graph: not wanted

@@ -170,7 +170,8 @@ WEDGE_FN int16 amongOthers(const StoredSamples* s, uint i, uint first, uint k, f
 /// What is kept of the samples of a band's pixels: a sample whose isolation is up to `low` whole, one of `high` or more
 /// not at all, and in between in proportion. A pixel keeps its least isolated sample, whatever that is.
 /// in   drawn, radiance, colours, ranges: stored samples; k: nearest, up to WEDGE_MOST_NEAREST; firstPass: of parts
-/// out  sums, excess, parts (kept.h), taken: samples; density: mean isolation
+/// out  sums, excess, parts (kept.h), taken: samples; notFinite: those of them that are left out for it; density: mean
+///      isolation
 #include "pass/keepByDensity.h"
 #ifdef PASS_keepByDensity
 __kernel void keepByDensity(PARAMETERS)
@@ -202,6 +203,7 @@ __kernel void keepByDensity(PARAMETERS)
     }
     storeKept(&kept, p.planeSize, i, count, sums, excess, HAS_parts ? (__global float*)PLANE_parts : 0);
     taken[i] = count;
+    notFinite[i] = count - kept.count;
 #if HAS_density
     density[i] = isolations / (float)count;
 #else

@@ -1,6 +1,6 @@
 // Filters of samples that path density is compared with: of each, what the samples of a band's pixels count
 // (filter/kept.h). All read stored samples (sinks/stored_samples.h): drawn, radiance, colours, ranges, exposure; and
-// all store what is kept: sums, excess, parts, taken.
+// all store what is kept: sums, excess, parts, taken, notFinite.
 #include "filter/kept.h"
 #include "shared/filter_params.h"
 #include "shared/maths.h"
@@ -9,7 +9,8 @@
 
 #define WEDGE_STORE_KEPT(kept)                                                                                         \
     storeKept(&(kept), p.planeSize, i, count, sums, excess, HAS_parts ? (__global float*)PLANE_parts : 0);             \
-    taken[i] = count
+    taken[i] = count;                                                                                                  \
+    notFinite[i] = count - (kept).count
 
 /// What is taken away is not made up for by what is left.
 WEDGE_FN void countWhole(Kept* kept)

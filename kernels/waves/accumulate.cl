@@ -114,7 +114,8 @@ __kernel void accumulateDelta(PARAMETERS)
 ///         wave's planes: objectId, reflectance (3), sums (path_sampling.h), reflectors (distances.h); hits, as
 ///         of a light; exposure: what bins of samples are of
 /// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples; bins: samples by
-///         their brightness (sinks/sample_bins.h): all of a receiver count as one
+///         their brightness (sinks/sample_bins.h): all of a receiver count as one; notFinite: samples in no bin, all of
+///         a receiver
 #include "pass/accumulatePaths.h"
 #ifdef PASS_accumulatePaths
 __kernel void accumulatePaths(PARAMETERS)
@@ -134,6 +135,7 @@ __kernel void accumulatePaths(PARAMETERS)
 #if HAS_bins
     OpenBins open;
     open.touched = 0u;
+    uint lost = 0u;
 #endif
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k, n = samplesOfReceiver(p, k, total);
@@ -148,6 +150,7 @@ __kernel void accumulatePaths(PARAMETERS)
 #if HAS_bins
         if (!storesFinite(e)) {
             addTexture(&sum, t.texture); // and nothing else: what is no number is left out
+            lost += n;
             continue;
         }
         if (n > 0u) {
@@ -167,6 +170,7 @@ __kernel void accumulatePaths(PARAMETERS)
     }
 #if HAS_bins
     closeBins(bins, pixels, p.i, &open);
+    notFinite[p.i] += lost;
 #endif
     const float hit = (float)LOAD_hits(pixels, p.i);
     const float counted = wave.published != 0u ? hit : p.before > 0u ? hit / (float)p.before * (float)had : 0.0f;
