@@ -169,7 +169,8 @@ TEST_CASE("wrong calls end in one line")
         {
             { { "--scene", "atlantis" }, 2, "mirrors, materials, room_small_lamp, two_lamps, cornell, grid_floor" },
             { { "--variant", "magic" }, 2, "unknown filter: --variant magic: choose among: bilateral" },
-            { { "--variant", "path-density:size=3" }, 2, "path-density:size=3: choose among: exposure, high, k, low" },
+            { { "--variant", "path-density:size=3" }, 2,
+                "path-density:size=3: choose among: approximate, exposure, high, k, low" },
             { { "--variant", "path-density:k" }, 2, "write path-density:k=10" },
             { { "--variant", "path-density:k=0.5" }, 2, "give a whole number from 1" },
             { { "--variant", "path-density:low=-1" }, 2, "give a number from 0" },
