@@ -22,7 +22,7 @@ inline constexpr const char* densityVariant = "path-density";
 /// Path density as published, and by RGB, which its authors advise against (DeCoro 2009, Fig. 5.9).
 inline constexpr const char* publishedVariant = "path-density:k=50,low=2,high=3,spread=0";
 inline constexpr const char* publishedRgbVariant = "path-density:k=50,low=2,high=3,spread=0,rgb=1";
-/// What that is held against.
+/// What densityVariant is held against.
 inline constexpr const char* reweightVariant = "reweight";
 inline constexpr const char* gmonVariant = "gmon";
 
