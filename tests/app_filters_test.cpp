@@ -150,6 +150,8 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refused("path-densty:k=3", "write path-density");
     refused("path-density:k=0", "whole number from 1 to 256");
     refused("path-density:low=5", "number from 0 to 4");
+    refused("path-density:rgb=0.5", "whole number from 0 to 1");
+    refused("path-density:approximate=5", "number from 0 to 4");
     refused("trim", "add --bounces 1 or more");
     refused("median:radus=1", "write radius");
     refused("median:radius", "write median:radius=1");
@@ -187,6 +189,9 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refusedCall({ "--add-filter", "gmon", "--add-filter", "clamp" }, "gmon and clamp: leave one out");
     refusedCall({ "--add-filter", "gmon", "--antialias" }, "neither antialiased nor progressive: gmon");
     refusedCall({ "--add-filter", "gmon", "--progressive" }, "neither antialiased nor progressive: gmon");
+    refusedCall(
+        { "--add-filter", "path-density:rgb=1", "--antialias" }, "samples by their L*: path-density: leave out");
+    refusedCall({ "--add-filter", "path-density:rgb=1", "--progressive" }, "leave out rgb=1");
     const Outcome tight = place.run({ "render", box, "--bounces", "1", "--method", "mc", "--spp", "1048576",
         "--add-filter", "trim", "-o", "a.exr" });
     CHECK(tight.status == failure);

@@ -137,7 +137,7 @@ TEST_CASE("all variants are measured of a scene file, and there are filters for 
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json all = Json::parse(place.text("results.json"));
     CHECK(all["variants"][0] == "mean");
-    CHECK(all["variants"].size() == 13);
+    CHECK(all["variants"].size() == 16);
     CHECK(all["skipped"].empty());
     const Json& points = all["scenes"][0]["points"];
     REQUIRE(points.size() == all["variants"].size());
@@ -156,7 +156,9 @@ TEST_CASE("antialiased, filters that need samples themselves are left out by nam
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json all = Json::parse(place.text("results.json"));
     CHECK(all["plan"]["antialias"] == true);
-    CHECK(all["skipped"] == Json({ "trim:share=0.01", "trim:share=0.1", "trim:share=0.5", "gmon" }));
+    CHECK(all["skipped"]
+        == Json({ "path-density:k=50,low=2,high=3,spread=0,rgb=1", "trim:share=0.01", "trim:share=0.1",
+            "trim:share=0.5", "gmon" }));
     const Json& scene = all["scenes"][0];
     CHECK(pointOf(scene, "mc", 4, "path-density")["indirect"] != pointOf(scene, "mc", 4, "mean")["indirect"]);
     CHECK(pointOf(scene, "aaf", 16, "path-density")["filter_ms"] > 0);
@@ -169,7 +171,8 @@ TEST_CASE("wrong calls end in one line")
         {
             { { "--scene", "atlantis" }, 2, "mirrors, materials, room_small_lamp, two_lamps, cornell, grid_floor" },
             { { "--variant", "magic" }, 2, "unknown filter: --variant magic: choose among: bilateral" },
-            { { "--variant", "path-density:size=3" }, 2, "path-density:size=3: choose among: exposure, high, k, low" },
+            { { "--variant", "path-density:size=3" }, 2,
+                "path-density:size=3: choose among: approximate, exposure, high, k, low" },
             { { "--variant", "path-density:k" }, 2, "write path-density:k=10" },
             { { "--variant", "path-density:k=0.5" }, 2, "give a whole number from 1" },
             { { "--variant", "path-density:low=-1" }, 2, "give a number from 0" },

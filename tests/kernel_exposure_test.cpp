@@ -14,7 +14,7 @@ TEST_CASE("probeCounts: sixteen samples of each fourth pixel of each fourth row 
     std::mt19937 random(4);
     onEveryDevice([&](const device::Device& device) {
         DeclaredFrame frame(
-            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }));
+            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } }));
         PassBench bench(frame, "probeCounts");
         for (const image::Window& window :
             { image::Window { 0, 0, 29, 27 }, image::Window { 7, 3, 25, 20 }, image::Window { 0, 0, 1, 1 } }) {
@@ -37,7 +37,7 @@ TEST_CASE("probeCounts: sixteen samples of each fourth pixel of each fourth row 
 TEST_CASE("probeCounts: where it is not known what pixels see, of each fourth pixel of each fourth row")
 {
     onEveryDevice([&](const device::Device& device) {
-        render::Settings settings = keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } });
+        render::Settings settings = keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } });
         settings.antialias = true;
         DeclaredFrame frame(device, smallScene(), settings);
         PassBench bench(frame, "probeCounts");
@@ -115,7 +115,7 @@ TEST_CASE("exposureOfProbes: the median luminance of lit probes is middle grey, 
     std::mt19937 random(5);
     onEveryDevice([&](const device::Device& device) {
         DeclaredFrame frame(
-            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }));
+            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } }));
         PassBench bench(frame, "exposureOfProbes");
         for (const glm::ivec2 size : { glm::ivec2(29, 27), glm::ivec2(17, 5), glm::ivec2(1, 1), glm::ivec2(29, 13) })
             for (const double decades : { 0.3, 4.0, 20.0 }) {
@@ -143,7 +143,7 @@ TEST_CASE("exposureOfProbes: 1 where all is dark or nothing is known")
 {
     onEveryDevice([&](const device::Device& device) {
         DeclaredFrame frame(
-            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }));
+            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } }));
         PassBench bench(frame, "exposureOfProbes");
         for (const float dark : { 0.0f, 1e-38f, std::numeric_limits<float>::quiet_NaN() }) {
             const Probes probes { Planes<float>(bench.layout, 4, dark), Planes<std::uint32_t>(bench.layout, 1, 16u), 29,

@@ -186,8 +186,8 @@ void inEveryFrame(const std::string& kernel, const render::ChosenFilter& filter,
     });
 }
 
-const render::ChosenFilter byDensity { "path-density", { 10, 2, 3, 3, 1 } }, reweighting { "reweight", { 1, 0, 1 } },
-    clamping { "clamp", { 10, 0, 1 } };
+const render::ChosenFilter byDensity { "path-density", { 10, 2, 3, 3, 1, 0, 0 } },
+    reweighting { "reweight", { 1, 0, 1 } }, clamping { "clamp", { 10, 0, 1 } };
 
 } // namespace
 
@@ -207,6 +207,40 @@ TEST_CASE("keepBinsByDensity: samples go by their mean distance to the k nearest
     CHECK(std::min({ seen.whole, seen.between, seen.gone }) > 3000);
     CHECK(seen.alone > 100);
     CHECK(seen.skipped < 50);
+}
+
+TEST_CASE("keepBinsByDensity: isolations by approximate neighbours are at most 1 + epsilon times the true ones")
+{
+    constexpr std::uint32_t k = 10;
+    unsigned farther = 0;
+    inEveryFrame("keepBinsByDensity", byDensity, [&](PassBench& bench) {
+        if (!bench.has("density"))
+            return;
+        for (const BinArea& area : binAreas()) {
+            const BinField field = someBins(1, area.width, area.height);
+            const std::vector<PixelDistances> distances = distancesOf(field, 1);
+            for (const float stretch : { 1.25f, 2.0f, 5.0f }) {
+                set(bench, { k, 2, 3 });
+                bench.value("stretch", stretch);
+                sharesMade(bench, field, area, 1);
+                const Planes<float> densities = bench.pixels<float>("density");
+                everyPixelOf(area.window, [&](int x, int y) {
+                    const Bins& bins = field.at(x, y);
+                    const ExpectedShares expected(bins, distances[indexOf(x, y, field.width)], { k, 2, 3 });
+                    const double samples = std::max<double>(1, static_cast<double>(samplesIn(bins)));
+                    const double exact = expected.isolations / samples, is = densities.at(x, y);
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    CAPTURE(stretch);
+                    CAPTURE(exact);
+                    REQUIRE(is >= exact - rounding);
+                    REQUIRE(is <= stretch * exact + rounding);
+                    farther += is > exact + 0.001 ? 1 : 0;
+                });
+            }
+        }
+    });
+    CHECK(farther > 100);
 }
 
 TEST_CASE("keepBinsByDensity: of one pixel alone k counts the other samples of its bin, and what there is not is 4 off")

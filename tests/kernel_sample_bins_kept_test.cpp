@@ -317,8 +317,9 @@ void inEveryFrame(const Test& test)
                 CAPTURE(kind.filtered);
                 CAPTURE(kind.layers);
                 CAPTURE(lossy);
-                const render::ChosenFilter filter = lossy ? render::ChosenFilter { "clamp", { 10, 0, 1 } }
-                                                          : render::ChosenFilter { "path-density", { 10, 2, 3, 0, 1 } };
+                const render::ChosenFilter filter = lossy
+                    ? render::ChosenFilter { "clamp", { 10, 0, 1 } }
+                    : render::ChosenFilter { "path-density", { 10, 2, 3, 0, 1, 0, 0 } };
                 DeclaredFrame frame(device, smallScene(),
                     binnedSettings(kind.filtered ? render::axisAligned(16) : render::monteCarlo(16), filter),
                     kind.layers);

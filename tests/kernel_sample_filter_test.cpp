@@ -177,7 +177,7 @@ struct Kind {
 
 std::vector<Kind> kinds()
 {
-    const render::ChosenFilter filter { "path-density", { 10, 2, 3, 3, 0 } };
+    const render::ChosenFilter filter { "path-density", { 10, 2, 3, 3, 0, 0, 0 } };
     return { { keptSettings(render::monteCarlo(70), filter), false, 0 },
         { keptSettings(render::monteCarlo(70), filter), true, 0 }, { keptSettings(evenly(70), filter), false, 16 } };
 }
@@ -201,15 +201,15 @@ void inEveryFrame(const Test& test)
 
 } // namespace
 
-TEST_CASE("keepByDensity: samples go by their mean distance to the k nearest of all, in bands and windows of any rows")
+namespace {
+
+/// Checks samples of a field of 29x27 pixels by these thresholds, in bands and windows of any rows.
+Seen checkField(const SampleField& field, const std::vector<Thresholds>& thresholds)
 {
-    std::mt19937 random(1);
-    const SampleField field = someSamples(random, 29, 27, 70);
     const std::vector<Isolations> isolations = allIsolations(field);
     Seen seen;
     inEveryFrame([&](PassBench& bench, const Kind& kind) {
-        for (const Thresholds& of : { Thresholds { 1, 0.25, 0.75 }, Thresholds { 10, 1, 2 }, Thresholds { 10, 2, 3 },
-                 Thresholds { 10, 1.5, 1.5 + 1e-6 }, Thresholds { 50, 2, 3.5 } })
+        for (const Thresholds& of : thresholds)
             for (const image::Window& window : { image::Window { 0, 0, 29, 27 }, image::Window { 3, 5, 26, 22 } })
                 for (const int rows : { 8, 32 }) {
                     CAPTURE(of.k);
@@ -230,9 +230,132 @@ TEST_CASE("keepByDensity: samples go by their mean distance to the k nearest of 
                     });
                 }
     });
+    return seen;
+}
+
+} // namespace
+
+TEST_CASE("keepByDensity: samples go by their mean distance to the k nearest of all, in bands and windows of any rows")
+{
+    std::mt19937 random(1);
+    const Seen seen = checkField(someSamples(random, 29, 27, 70),
+        { { 1, 0.25, 0.75 }, { 10, 1, 2 }, { 10, 2, 3 }, { 10, 1.5, 1.5 + 1e-6 }, { 50, 2, 3.5 } });
     CHECK(std::min({ seen.whole, seen.between, seen.gone }) > 5000);
     CHECK(seen.alone > 100);
     CHECK(seen.skipped < 300);
+}
+
+TEST_CASE("keepByDensity: by distances of RGB")
+{
+    std::mt19937 random(7);
+    const Seen seen = checkField(someSamples(random, 29, 27, 70, Space::Rgb), { { 1, 0.25, 0.75 }, { 10, 2, 3 } });
+    CHECK(std::min({ seen.whole, seen.between, seen.gone }) > 2000);
+    CHECK(seen.alone > 100);
+    CHECK(seen.skipped < 120);
+}
+
+namespace {
+
+/// Sums of a pixel's isolations, true ones.
+double sumOf(const Isolations& isolations, std::uint32_t k)
+{
+    double sum = 0;
+    for (const std::vector<double>& of : isolations)
+        sum += of[k - 1];
+    return sum;
+}
+
+/// What has been found of approximate neighbours.
+struct Approximate {
+    unsigned farther = 0; ///< pixels whose isolation is not the true one
+    unsigned whole = 0; ///< that are sure to keep all
+};
+
+/// Checks a pixel's isolation to be the true one or up to `stretch` times as large; and where no layer asks for it,
+/// that what is kept is what such isolations say.
+void checkApproximate(const KeptPlanes& found, int x, int y, const Isolations& own, const Thresholds& of,
+    double stretch, Approximate& seen)
+{
+    CAPTURE(x);
+    CAPTURE(y);
+    CAPTURE(of.k);
+    CAPTURE(stretch);
+    if (!found.density.values.empty()) {
+        const double exact = sumOf(own, of.k) / static_cast<double>(own.size()), is = found.density.at(x, y);
+        CAPTURE(exact);
+        REQUIRE(is >= exact * (1 - rounding) - rounding);
+        REQUIRE(is <= stretch * exact * (1 + rounding) + rounding);
+        seen.farther += is > exact * 1.001 + 0.001 ? 1 : 0;
+    }
+    const bool whole = std::ranges::all_of(
+        own, [&](const std::vector<double>& each) { return stretch * each[of.k - 1] < of.low - rounding; });
+    seen.whole += whole ? 1 : 0;
+    if (whole)
+        REQUIRE(glm::length(found.excess.vector(x, y)) <= 1e-5 * glm::length(keptMean(found, x, y)));
+}
+
+} // namespace
+
+TEST_CASE("keepByDensity: isolations by approximate neighbours are at most 1 + epsilon times the true ones")
+{
+    std::mt19937 random(8);
+    const SampleField field = someSamples(random, 29, 27, 70);
+    const std::vector<Isolations> isolations = allIsolations(field);
+    for (const float stretch : { 1.25f, 2.0f, 5.0f }) {
+        Approximate seen;
+        inEveryFrame([&](PassBench& bench, const Kind& kind) {
+            for (const Thresholds& of : { Thresholds { 1, 2, 3 }, Thresholds { 10, 2, 3 }, Thresholds { 50, 3, 4 } }) {
+                set(bench, of);
+                bench.value("stretch", stretch);
+                const KeptPlanes found = keep(bench, field, { 0, 0, 29, 27 }, 8, 70, kind.firstPass);
+                everyPixelOf({ 0, 0, 29, 27 }, [&](int x, int y) {
+                    const Isolations& own = isolations[indexOf(x, y, 29)];
+                    if (!own.empty())
+                        checkApproximate(found, x, y, own, of, stretch, seen);
+                });
+            }
+        });
+        CAPTURE(stretch);
+        CHECK(seen.farther > 100);
+        CHECK(seen.whole > 20);
+    }
+}
+
+TEST_CASE("keepByDensity: the kth approximate neighbour is at most 1 + epsilon times as far as the true one")
+{
+    // Ten times the same sample a pixel: nine others at no distance, so that ten times the isolation is that of the
+    // tenth.
+    constexpr std::uint32_t k = 10;
+    std::mt19937 random(9);
+    SampleField field(29, 27);
+    everyPixelOf({ 0, 0, 29, 27 }, [&](int x, int y) {
+        const double grey = std::exp(uniform(random, -2, 2));
+        field.at(x, y).assign(k, storedSample(grey * glm::dvec3(1, uniform(random, 0.5, 1), uniform(random, 0.2, 1))));
+    });
+    const std::vector<Isolations> isolations = allIsolations(field);
+    inEveryFrame([&](PassBench& bench, const Kind& kind) {
+        for (const float stretch : { 1.0f, 1.5f, 3.0f, 5.0f }) {
+            if (!kind.layers)
+                continue;
+            set(bench, { k, 2, 3 });
+            bench.value("stretch", stretch);
+            const KeptPlanes found = keep(bench, field, { 0, 0, 29, 27 }, 8, 70, kind.firstPass);
+            unsigned farther = 0;
+            everyPixelOf({ 0, 0, 29, 27 }, [&](int x, int y) {
+                const double exact = k * isolations[indexOf(x, y, 29)].front()[k - 1];
+                const double is = k * double { found.density.at(x, y) };
+                CAPTURE(x);
+                CAPTURE(y);
+                CAPTURE(stretch);
+                CAPTURE(exact);
+                REQUIRE(is >= exact - k * rounding);
+                REQUIRE(is <= stretch * exact + k * rounding);
+                farther += is > exact + 0.001 ? 1 : 0;
+            });
+            CAPTURE(stretch);
+            CHECK((farther > 100) == (stretch > 1));
+        }
+    });
 }
 
 TEST_CASE("keepByDensity: in images smaller than what is looked at, k beyond all samples counts as 4")

@@ -1,8 +1,10 @@
 // Sinks: the kernels that sample, with a sink of this test's own beside the renderer's and in their place, over pixels
 // and over receivers of a wave.
 #include "host/graph/interface.h"
+#include "host/render/kernel_types.h"
 #include "host/render/sinks.h"
 #include "kernels/shared/path.h"
+#include "tests/stored_samples_support.h"
 #include "tests/trace_support.h"
 
 #include <set>
@@ -129,6 +131,28 @@ public:
         return run(pass, points, becoming);
     }
 
+    /// Paths of pixels, as samples of a band that has the whole image.
+    PassBench bandOfPaths(const Points& points, const shared::PathParams& params, float exposure, Space space)
+    {
+        PassBench pass(pixels, "samplePaths");
+        pass.value("params", params);
+        pass.plane("specular", points.specular);
+        pass.sinks({ { .file = "sinks/band_samples.h",
+                       .name = "BandSamples",
+                       .begin = { "slots", "exposure", "ranges" },
+                       .take = { "slots", "perPixel", "radiance", "colours" },
+                       .finish = { "slots", "ranges" },
+                       .defines = space == Space::Rgb ? device::Defines { { "WEDGE_RGB_SAMPLES", "1" } }
+                                                      : device::Defines() } },
+            { graph::value("slots", points.frame.planeSize), graph::value("perPixel", room) },
+            { { "exposure", graph::floats, 1 }, { "ranges", graph::floats, 2 * points.size() },
+                { "radiance", graph::floats, 3 * room * points.size() },
+                { "colours", render::shortCounts, 3 * room * points.size() } });
+        pass.plane("exposure", std::vector<float> { exposure });
+        launch(pass, points);
+        return pass;
+    }
+
     TracedScene pixels;
     DeclaredFrame waves;
 
@@ -154,6 +178,18 @@ private:
         pass.sinks(becoming, { graph::value("room", room) },
             { { "stored", graph::floats, room * storedPlanes * size }, { "storedCounts", graph::counts, size },
                 { "sums", graph::floats, sumPlanes * size } });
+        launch(pass, points);
+        const auto floats = [&](const char* name) {
+            return pass.has(name) ? pass.read<float>(name) : std::vector<float>();
+        };
+        return { floats("sums"), floats("stored"),
+            pass.has("storedCounts") ? pass.read<std::uint32_t>("storedCounts") : std::vector<std::uint32_t>(),
+            pass.read<std::uint32_t>("taken") };
+    }
+
+    /// In two launches.
+    static void launch(PassBench& pass, const Points& points)
+    {
         pass.value("frame", points.frame);
         pass.plane("position", points.position);
         pass.plane("normal", points.normal);
@@ -172,12 +208,6 @@ private:
             pass.value("lastSample", last);
             pass.run();
         }
-        const auto floats = [&](const char* name) {
-            return pass.has(name) ? pass.read<float>(name) : std::vector<float>();
-        };
-        return { floats("sums"), floats("stored"),
-            pass.has("storedCounts") ? pass.read<std::uint32_t>("storedCounts") : std::vector<std::uint32_t>(),
-            pass.read<std::uint32_t>("taken") };
     }
 };
 
@@ -391,6 +421,66 @@ std::string textOf(const std::vector<graph::Sink>& sinks, const std::vector<std:
 }
 
 } // namespace
+
+namespace {
+
+/// Checks a pixel's stored colours to be its samples' in 16 bits, and their range to be exact.
+void checkBand(const std::vector<float>& radiance, const std::vector<std::uint32_t>& colours,
+    const std::vector<float>& ranges, std::size_t pixel, std::uint32_t count, double exposure, Space space)
+{
+    double low = 1e30, high = -1e30;
+    for (std::size_t j = 0; j < count; ++j) {
+        glm::dvec3 sample, found;
+        for (int channel = 0; channel < 3; ++channel) {
+            const std::size_t at = (3 * pixel + static_cast<std::size_t>(channel)) * room + j;
+            sample[channel] = radiance[at];
+            found[channel] = shared::unpackShort(colours[at]);
+        }
+        const glm::dvec3 expected = colourOracle(exposure * sample, space);
+        CAPTURE(pixel);
+        CAPTURE(j);
+        for (int channel = 0; channel < 3; ++channel) {
+            CAPTURE(channel);
+            CAPTURE(expected[channel]);
+            CAPTURE(found[channel]);
+            REQUIRE(std::fabs(found[channel] - expected[channel]) <= std::fabs(expected[channel]) / 250 + 1e-4);
+        }
+        low = std::min(low, found.x);
+        high = std::max(high, found.x);
+    }
+    REQUIRE(ranges[2 * pixel] == low);
+    REQUIRE(ranges[2 * pixel + 1] == high);
+}
+
+} // namespace
+
+TEST_CASE("paths: a band of samples has their colours as CIELAB or as RGB, by which white is as far from black")
+{
+    CHECK(glm::length(colourOracle({ 1, 1, 1 }, Space::Rgb)) == doctest::Approx(5));
+    CHECK(glm::length(colourOracle({ 1, 1, 1 }, Space::Lab)) == doctest::Approx(5).epsilon(1e-4));
+    onEveryDevice([](const device::Device& device) {
+        Sampler sampler(device);
+        const Points points = pixelPoints(sampler.pixels, 12);
+        shared::PathParams params {};
+        params.bounces = 2;
+        params.areaLights = static_cast<std::uint32_t>(sampler.pixels.onDevice.areaLightList.size());
+        params.sceneDiameter = sampler.pixels.onDevice.diameter;
+        params.component = WEDGE_COMPONENT_DIFFUSE;
+        for (const Space space : { Space::Lab, Space::Rgb })
+            for (const float exposure : { 1.0f, 8.0f }) {
+                const PassBench band = sampler.bandOfPaths(points, params, exposure, space);
+                const auto radiance = band.read<float>("radiance"), ranges = band.read<float>("ranges");
+                const auto colours = band.read<std::uint32_t>("colours"), taken = band.read<std::uint32_t>("taken");
+                unsigned pixels = 0;
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    if (taken[i] > 0)
+                        checkBand(radiance, colours, ranges, i, taken[i], exposure, space);
+                    pixels += taken[i] > 0 ? 1 : 0;
+                }
+                CHECK(pixels > 300);
+            }
+    });
+}
 
 TEST_CASE("what sinks are handed are the pass's last arguments")
 {

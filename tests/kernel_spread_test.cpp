@@ -103,7 +103,7 @@ public:
     explicit Spread(const device::Device& device, bool parts)
         : frame_(device, smallScene(),
             keptSettings(
-                parts ? render::axisAligned(16) : render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }))
+                parts ? render::axisAligned(16) : render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } }))
         , sums_(frame_, "spreadSums")
         , excess_(frame_, "spreadExcess")
     {
@@ -272,7 +272,7 @@ TEST_CASE("meanOfKept: sums over samples, and black without")
     std::mt19937 random(3);
     onEveryDevice([&](const device::Device& device) {
         DeclaredFrame frame(
-            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }));
+            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0, 0, 0 } }));
         PassBench bench(frame, "meanOfKept");
         for (const Area& area : areas()) {
             auto p = paramsOf(bench.layout);

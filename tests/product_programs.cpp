@@ -3,6 +3,7 @@
 #include "filters/temporal/temporal.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/filter_call.h"
 #include "host/render/filter_chain.h"
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
@@ -82,6 +83,7 @@ std::vector<Settings> manySettings()
             });
         }
     }
+    add(7, [](Settings& s) { s.filters = { render::filterCall("filter", "path-density:rgb=1") }; });
     for (const auto& filter : render::registeredFilters()) {
         if (filter->stage() == render::Stage::Samples) {
             add(6, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // bounced, filtered

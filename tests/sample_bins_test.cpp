@@ -20,9 +20,9 @@ namespace {
 
 constexpr int width = 45, height = 34;
 const image::Window whole { 0, 0, width, height };
-const render::ChosenFilter density { "path-density", { 10, 2, 3, 3, 0 } };
+const render::ChosenFilter density { "path-density", { 10, 2, 3, 3, 0, 0, 0 } };
 /// Leaves out more.
-const render::ChosenFilter strict { "path-density", { 10, 0.3f, 0.9f, 2, 0 } };
+const render::ChosenFilter strict { "path-density", { 10, 0.3f, 0.9f, 2, 0, 0, 0 } };
 /// Has all samples by their brightness, and keeps them.
 const render::ChosenFilter kept { "clamp", { 1e8f, 0, 0 } };
 

@@ -15,7 +15,7 @@ using namespace wedge::test;
 namespace {
 
 constexpr int width = 45, height = 34;
-const render::ChosenFilter density { "path-density", { 10, 2, 3, 3, 0 } };
+const render::ChosenFilter density { "path-density", { 10, 2, 3, 3, 0, 0, 0 } };
 /// Stores samples, and keeps all of them.
 const render::ChosenFilter kept { "clamp", { 1e8f, 0, 0 } };
 
@@ -114,7 +114,7 @@ TEST_CASE("a crop has the bits of the whole, of one band and of several, whateve
         };
         for (const render::Settings& kind : { plain(700), uniform(20), adaptive(16), adaptive(40) }) {
             CAPTURE(kind.spp);
-            render::Settings s = with(kind, { "path-density", { 10, 0.5f, 1.5f, 2, 0 } });
+            render::Settings s = with(kind, { "path-density", { 10, 0.5f, 1.5f, 2, 0, 0, 0 } });
             const std::vector<float> whole = rendered(renderer, s);
             CHECK(notFinite(whole) == 0);
             s.crop = { 17, 11, 30, 23 };
@@ -156,7 +156,7 @@ TEST_CASE("light that is spread is not lost, and less is left without")
         const scene::Scene scene = richScene();
         render::Renderer renderer(scene, device, renderOptions());
         const render::Settings s = plain(16);
-        render::ChosenFilter lossy { "path-density", { 10, 0.3f, 0.6f, 0, 0 } }, spread = lossy;
+        render::ChosenFilter lossy { "path-density", { 10, 0.3f, 0.6f, 0, 0, 0, 0 } }, spread = lossy;
         spread.values[3] = 3.0f;
         const double all = sumOf(rendered(renderer, s, "indirect", true));
         const double lost = sumOf(rendered(renderer, with(s, lossy), "indirect", true));

@@ -26,7 +26,7 @@ inline const std::vector<Product>& products()
 {
     static const std::vector<Product> all { { "keepClamped", "clamp", { 10, 0, 1 } },
         { "keepTrimmed", "trim", { 0.1f, 0 } }, { "keepMedianOfMeans", "gmon", { 9, 0 } },
-        { "keepReweighted", "reweight", { 1, 0, 1 } }, { "keepByDensity", "path-density", { 10, 2, 3, 0, 1 } } };
+        { "keepReweighted", "reweight", { 1, 0, 1 } }, { "keepByDensity", "path-density", { 10, 2, 3, 0, 1, 0, 0 } } };
     return all;
 }
 

@@ -38,18 +38,27 @@ inline std::size_t indexOf(int x, int y, int width)
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
+/// Spaces in which samples' colours are compared.
+enum class Space { Lab, Rgb };
+
+/// A colour in pixels: CIELAB by 20, or RGB scaled so that white is as far from black.
+inline glm::dvec3 colourOracle(const glm::dvec3& exposed, Space space)
+{
+    return space == Space::Lab ? labOracle(exposed) / 20.0 : exposed * (5 / std::sqrt(3.0));
+}
+
 struct StoredSample {
     glm::dvec3 radiance; ///< floats
     glm::dvec3 colour; ///< in pixels, as 16 bits have it; what is no number is as far as can be
 };
 
-inline StoredSample storedSample(const glm::dvec3& radiance, double exposure = 1)
+inline StoredSample storedSample(const glm::dvec3& radiance, double exposure = 1, Space space = Space::Lab)
 {
     const glm::dvec3 rounded(glm::vec3 { radiance });
     if (!isFinite(rounded))
         return { rounded, { inShort(1e30), 0, 0 } };
-    const glm::dvec3 lab = labOracle(exposure * rounded) / 20.0;
-    return { rounded, { inShort(lab.x), inShort(lab.y), inShort(lab.z) } };
+    const glm::dvec3 colour = colourOracle(exposure * rounded, space);
+    return { rounded, { inShort(colour.x), inShort(colour.y), inShort(colour.z) } };
 }
 
 /// An image's samples, any number to a pixel.
@@ -282,7 +291,8 @@ inline void requireUntouched(const KeptPlanes& found, int x, int y)
 
 /// Random samples: around colours that change from pixel to pixel, some far from them, some that are no numbers; pixels
 /// with none, few, and up to `most`.
-inline SampleField someSamples(std::mt19937& random, int width, int height, std::uint32_t most)
+inline SampleField someSamples(
+    std::mt19937& random, int width, int height, std::uint32_t most, Space space = Space::Lab)
 {
     SampleField out(width, height);
     const float bad[] = { std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
@@ -301,7 +311,7 @@ inline SampleField someSamples(std::mt19937& random, int width, int height, std:
                     * std::pow(10, uniform(random, -1, 2));
             if (random() % 40 == 0)
                 v[static_cast<int>(random() % 3)] = bad[random() % 3];
-            out.at(x, y).push_back(storedSample(v));
+            out.at(x, y).push_back(storedSample(v, 1, space));
         }
     });
     return out;

@@ -16,8 +16,9 @@ struct TableRow {
 const std::vector<TableRow>& measuredVariants()
 {
     static const std::vector<TableRow> all { { densityVariant }, { "path-density:k=50" }, { "path-density:k=200", 64 },
-        { "path-density:spread=0" }, { "trim:share=0.01" }, { "trim:share=0.1" }, { "trim:share=0.5" }, { "clamp" },
-        { gmonVariant }, { reweightVariant }, { "mad-median" }, { "median" } };
+        { "path-density:spread=0" }, { publishedVariant, 64 }, { publishedRgbVariant, 64 },
+        { "path-density:k=200,approximate=1", 64 }, { "trim:share=0.01" }, { "trim:share=0.1" }, { "trim:share=0.5" },
+        { "clamp" }, { gmonVariant }, { reweightVariant }, { "mad-median" }, { "median" } };
     return all;
 }
 
@@ -25,9 +26,11 @@ const std::vector<TableRow>& measuredVariants()
 bool isThere(const std::string& text, bool antialiased)
 {
     const render::Filter* filter = render::filterNamed(text.substr(0, text.find(':')));
-    return filter != nullptr
-        && (!antialiased || filter->stage() != render::Stage::Samples
-            || static_cast<const render::SampleFilter*>(filter)->kernelOfBins());
+    if (filter == nullptr || !antialiased || filter->stage() != render::Stage::Samples) {
+        return filter != nullptr;
+    }
+    const auto& ofSamples = static_cast<const render::SampleFilter&>(*filter);
+    return ofSamples.kernelOfBins() && !ofSamples.comparesRgb(render::filterCall("--variant", text).values);
 }
 
 } // namespace

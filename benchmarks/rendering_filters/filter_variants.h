@@ -17,8 +17,12 @@ struct FilterVariant {
 
 /// The plain mean, which all others are compared with.
 inline constexpr const char* plainMean = "mean";
-/// The filter that claims are about, as it comes, and those that it is held against.
+/// The filter that claims are about, as it comes.
 inline constexpr const char* densityVariant = "path-density";
+/// Path density as published, and by RGB, which its authors advise against (DeCoro 2009, Fig. 5.9).
+inline constexpr const char* publishedVariant = "path-density:k=50,low=2,high=3,spread=0";
+inline constexpr const char* publishedRgbVariant = "path-density:k=50,low=2,high=3,spread=0,rgb=1";
+/// What densityVariant is held against.
 inline constexpr const char* reweightVariant = "reweight";
 inline constexpr const char* gmonVariant = "gmon";
 

@@ -30,7 +30,10 @@ public:
             { "spread", 0.0, 8.0, 3.0f,
                 "of the Gaussian by which what is left out goes to its surface, pixels; 0: it is lost" },
             { "exposure", 0.0, 1e9, 0.0f,
-                "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" } };
+                "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" },
+            { "rgb", 0.0, 1.0, 0.0f, "1: colours are compared as exposed RGB, not as CIELAB", true },
+            { "approximate", 0.0, 4.0, 0.0f,
+                "epsilon of approximate neighbours: up to 1 + epsilon times as far as the true ones; 0: exact" } };
     }
     bool keepsAll(const Values& values) const override { return values[1] >= WEDGE_SAMPLE_REACH; }
     graph::KernelName kernel() const override { return { "filter/path_density.cl", "keepByDensity" }; }
@@ -46,8 +49,9 @@ public:
         const float low = values[1] > 0.0f ? values[1] : filtered ? ofFiltered : usual;
         const float high = values[2] > 0.0f ? values[2] : low + 1.0f;
         return { value("k", static_cast<std::uint32_t>(values[0])), value("low", low),
-            value("high", std::max(high, low + least)) };
+            value("high", std::max(high, low + least)), value("stretch", 1.0f + values[6]) };
     }
+    bool comparesRgb(const Values& values) const override { return values[5] > 0.0f; }
     bool measuresDensity() const override { return true; }
     float spread(const Values& values) const override { return values[3]; }
     float exposure(const Values& values) const override { return values[4]; }

@@ -89,6 +89,12 @@ public:
     virtual bool measuresDensity() const { return false; }
     /// What colours are multiplied by before they are compared; 0: as the frame's median says.
     virtual float exposure(const std::vector<float>& values) const = 0;
+    /// Whether its samples' colours are exposed RGB in place of CIELAB: of stored samples alone.
+    virtual bool comparesRgb(const std::vector<float>& values) const
+    {
+        (void)values;
+        return false;
+    }
 };
 
 /// All that there are, by what they are registered as: those of samples first.

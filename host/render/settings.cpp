@@ -134,6 +134,11 @@ void validateSampleFilter(const Settings& s, bool distributed)
                          "antialiased nor progressive",
             filter->name, fmt::format("choose {}, or leave it out, a scene's with --no-filters", filtersOfBins()));
     }
+    if (distributed && sampleFilterOf(s).filter->comparesRgb(filter->values)) {
+        throw UsageError("colours are compared as RGB in frames through a pinhole where nothing moves, neither "
+                         "antialiased nor progressive: all others know samples by their L*",
+            filter->name, "leave out rgb=1");
+    }
     if (distributed && s.method == Method::AxisAligned && s.distributed.published) {
         throw UsageError("filters of samples do not go with published frames through a lens or shutter, or antialiased",
             filter->name, "leave it out, a scene's with --no-filters");

@@ -118,7 +118,9 @@ graph::Sink StoredSamples::sink() const
         .name = "BandSamples",
         .begin = { "slots", "exposure", "ranges" },
         .take = { "slots", "perPixel", "radiance", "colours" },
-        .finish = { "slots", "ranges" } };
+        .finish = { "slots", "ranges" },
+        .defines = chosen_.filter->comparesRgb(chosen_.values) ? device::Defines { { "WEDGE_RGB_SAMPLES", "1" } }
+                                                               : device::Defines() };
 }
 
 Arguments StoredSamples::sunk()

@@ -2,7 +2,10 @@
 // among those of their pixel and its neighbours, in the image and in colour, are left out. The distance of two samples
 // is that of their pixels plus that of their colours, d = |dx| + |dLab| / 20, at most 4: so nothing beyond 4 pixels
 // counts, and a band of rows with as many around it has all that there is to know. How alone a sample is, its
-// isolation, is its mean distance to the k nearest.
+// isolation, is its mean distance to the k nearest. Colours may be RGB instead (sinks/band_samples.h): nothing here
+// asks what their three numbers are. Neighbours may be approximate, by a factor `stretch` = 1 + epsilon (Arya et al.,
+// An Optimal Algorithm for Approximate Nearest Neighbor Searching, 1998): what is passed over is by no more than that
+// nearer than the farthest of those that are found, so the nth nearest is at most that often as far as the true one.
 #include "filter/kept.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
@@ -122,7 +125,8 @@ WEDGE_FN void addPixel(
 }
 
 /// The isolation of sample `index` of a pixel; anything up to `enough` where it is no more than that.
-WEDGE_FN float isolationOf(const StoredSamples* s, AnalysisParams p, uint x, uint y, uint index, uint k, float enough)
+WEDGE_FN float isolationOf(
+    const StoredSamples* s, AnalysisParams p, uint x, uint y, uint index, uint k, float stretch, float enough)
 {
     const uint i = pixelIndex(x, y, p.stride);
     const Vec3 own = storedColour(s, firstStored(i, s->slots, s->perPixel) + index);
@@ -130,16 +134,17 @@ WEDGE_FN float isolationOf(const StoredSamples* s, AnalysisParams p, uint x, uin
     nothingNear(&nearest, k);
     for (uint o = 0u; o < WEDGE_DENSITY_PIXELS; ++o) {
         const float far = densityDistance(o);
-        if (far >= nearest.largest || nearest.sum <= enough * (float)k) {
+        if (stretch * far >= nearest.largest || nearest.sum <= enough * (float)k) {
             break;
         }
         uint j;
         if (!densityPixel(p, x, y, o, &j) || s->drawn[j] == 0u) {
             continue;
         }
-        // No sample there is nearer than the range of brightness is.
+        // No sample there is nearer than the range of colours' first number is, whatever that is: a Euclidean distance
+        // is not below the difference of one of its coordinates.
         const float low = s->ranges[2u * (j % s->slots)], high = s->ranges[2u * (j % s->slots) + 1u];
-        if (far + fmax(0.0f, fmax(low - own.x, own.x - high)) < nearest.largest) {
+        if (stretch * (far + fmax(0.0f, fmax(low - own.x, own.x - high))) < nearest.largest) {
             addPixel(s, j, far, own, o == 0u ? index : s->perPixel, enough * (float)k, &nearest);
         }
     }
@@ -169,7 +174,8 @@ WEDGE_FN int16 amongOthers(const StoredSamples* s, uint i, uint first, uint k, f
 
 /// What is kept of the samples of a band's pixels: a sample whose isolation is up to `low` whole, one of `high` or more
 /// not at all, and in between in proportion. A pixel keeps its least isolated sample, whatever that is.
-/// in   drawn, radiance, colours, ranges: stored samples; k: nearest, up to WEDGE_MOST_NEAREST; firstPass: of parts
+/// in   drawn, radiance, colours, ranges: stored samples; k: nearest, up to WEDGE_MOST_NEAREST; stretch: 1, or that
+///      of approximate neighbours; firstPass: of parts
 /// out  sums, excess, parts (kept.h), taken: samples; notFinite: those of them that are left out for it; density: mean
 ///      isolation
 #include "pass/keepByDensity.h"
@@ -189,7 +195,7 @@ __kernel void keepByDensity(PARAMETERS)
         for (uint lane = 0u; lane < 16u && first + lane < count; ++lane) {
             const uint j = first + lane;
             const float isolation =
-                among[lane] != 0 ? 0.0f : isolationOf(&stored, p, x, y, j, k, HAS_density ? 0.0f : low);
+                among[lane] != 0 ? 0.0f : isolationOf(&stored, p, x, y, j, k, stretch, HAS_density ? 0.0f : low);
             isolations += isolation;
             const Vec3 sample = storedRadiance(&stored, i, j);
             plainest = isolation < least && storesFinite(sample) ? j : plainest;
@@ -228,13 +234,14 @@ WEDGE_INLINE Vec3 binColour(const BinnedSamples* s, SampleBin bin)
 
 /// Adds a pixel's bins, `far` pixels away, to the nearest of a sample whose colour is `own`. self: its bin, where it is
 /// of that pixel; else WEDGE_SAMPLE_BINS
-WEDGE_FN void addBinsOf(const BinnedSamples* s, uint pixel, float far, Vec3 own, uint self, Nearest* nearest)
+WEDGE_FN void addBinsOf(
+    const BinnedSamples* s, uint pixel, float far, Vec3 own, uint self, float stretch, Nearest* nearest)
 {
     for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
         // No bin is nearer than its ends are, but for rounding.
         const float begin = b > 0u ? sampleBinEnds[b - 1u] : -INFINITY;
         const float end = b + 1u < WEDGE_SAMPLE_BINS ? sampleBinEnds[b] : INFINITY;
-        if (far + 0.99f * fmax(begin - own.x, own.x - end) >= nearest->largest) {
+        if (stretch * (far + 0.99f * fmax(begin - own.x, own.x - end)) >= nearest->largest) {
             continue;
         }
         const SampleBin bin = loadSampleBin(s->bins, s->size, pixel, b);
@@ -251,25 +258,25 @@ WEDGE_FN void addBinsOf(const BinnedSamples* s, uint pixel, float far, Vec3 own,
 
 /// The isolation of the samples of a pixel's bin; anything up to `enough` where it is no more than that.
 WEDGE_FN float isolationOfBin(
-    const BinnedSamples* s, AnalysisParams p, uint x, uint y, uint bin, Vec3 own, uint k, float enough)
+    const BinnedSamples* s, AnalysisParams p, uint x, uint y, uint bin, Vec3 own, uint k, float stretch, float enough)
 {
     Nearest nearest;
     nothingNear(&nearest, k);
     for (uint o = 0u; o < WEDGE_DENSITY_PIXELS; ++o) {
         const float far = densityDistance(o);
-        if (far >= nearest.largest || nearest.sum <= enough * (float)k) {
+        if (stretch * far >= nearest.largest || nearest.sum <= enough * (float)k) {
             break;
         }
         uint j;
         if (densityPixel(p, x, y, o, &j)) {
-            addBinsOf(s, j, far, own, o == 0u ? bin : WEDGE_SAMPLE_BINS, &nearest);
+            addBinsOf(s, j, far, own, o == 0u ? bin : WEDGE_SAMPLE_BINS, stretch, &nearest);
         }
     }
     return fmax(nearest.sum / (float)k, 0.0f);
 }
 
 /// What is kept of the samples of each of a pixel's bins, as keepByDensity keeps them.
-/// in   bins; exposure; k, low, high
+/// in   bins; exposure; k, low, high, stretch
 /// out  shares: of each bin (kept_bins.cl); density: mean isolation
 #include "pass/keepBinsByDensity.h"
 #ifdef PASS_keepBinsByDensity
@@ -286,7 +293,7 @@ __kernel void keepBinsByDensity(PARAMETERS)
         if (bin.count > 0u) {
             const float isolation = bin.count > k
                 ? 0.0f
-                : isolationOfBin(&binned, p, x, y, b, binColour(&binned, bin), k, HAS_density ? 0.0f : low);
+                : isolationOfBin(&binned, p, x, y, b, binColour(&binned, bin), k, stretch, HAS_density ? 0.0f : low);
             share = isolation <= low ? 1.0f : fmax(0.0f, (high - isolation) / (high - low));
             plainest = isolation < least ? b : plainest;
             least = fmin(least, isolation);

@@ -7,6 +7,9 @@
 #define WEDGE_SAMPLE_REACH 4
 /// Differences of CIELAB that count as much as one pixel.
 #define WEDGE_LAB_PIXEL 20.0f
+/// What exposed RGB is multiplied by where it is compared in place of CIELAB, pixels: so white is as far from black as
+/// there, 100 / WEDGE_LAB_PIXEL, by a Euclidean norm of three equal numbers.
+#define WEDGE_RGB_PIXELS 2.88675135f
 /// Nearest samples that a sample is compared with, at most.
 #define WEDGE_MOST_NEAREST 256
 /// Groups of samples whose means are compared, at most.

@@ -13,10 +13,23 @@
 
 typedef struct {
     float exposure; ///< what radiance is multiplied by before it is a colour
-    float low[WEDGE_PACKET_SIZE], high[WEDGE_PACKET_SIZE]; ///< of the receivers, least and largest L*
+    float low[WEDGE_PACKET_SIZE], high[WEDGE_PACKET_SIZE]; ///< of the receivers, ends of their colours' first number
 } BandSamples;
 
-/// in  slots: pixels that there is memory for; exposure; ranges: least and largest L* of each slot's earlier samples
+/// The colour by which samples are compared, pixels, of exposed radiance: CIELAB, or with WEDGE_RGB_SAMPLES itself.
+WEDGE_INLINE Vec3 comparedColour(Vec3 exposed)
+{
+#ifdef WEDGE_RGB_SAMPLES
+    const float most = 1e18f; // whose square is still a number
+    return vec3(fmin(WEDGE_RGB_PIXELS * exposed.x, most), fmin(WEDGE_RGB_PIXELS * exposed.y, most),
+        fmin(WEDGE_RGB_PIXELS * exposed.z, most));
+#else
+    return vecScale(labOf(exposed), 1.0f / WEDGE_LAB_PIXEL);
+#endif
+}
+
+/// in  slots: pixels that there is memory for; exposure; ranges: of the colours' first number, of each slot's earlier
+/// samples
 WEDGE_INLINE void beginBandSamples(
     const Sampling* at, BandSamples* state, uint slots, __global const float* exposure, __global const float* ranges)
 {
@@ -34,28 +47,29 @@ WEDGE_INLINE void beginBandSamples(
 WEDGE_INLINE void takeBandSamples(const Sampling* at, const Samples* s, BandSamples* state, uint slots, uint perPixel,
     __global float* radiance, __global ushort* colours)
 {
-    float l[WEDGE_PACKET_SIZE], a[WEDGE_PACKET_SIZE], b[WEDGE_PACKET_SIZE];
+    float first[WEDGE_PACKET_SIZE], second[WEDGE_PACKET_SIZE], third[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const float scale = state->exposure;
-        const Vec3 lab = labOf(vec3(scale * s->value[0][lane], scale * s->value[1][lane], scale * s->value[2][lane]));
-        l[lane] = unpackShort(packShort(lab.x * (1.0f / WEDGE_LAB_PIXEL)));
-        a[lane] = lab.y * (1.0f / WEDGE_LAB_PIXEL);
-        b[lane] = lab.z * (1.0f / WEDGE_LAB_PIXEL);
+        const Vec3 colour =
+            comparedColour(vec3(scale * s->value[0][lane], scale * s->value[1][lane], scale * s->value[2][lane]));
+        first[lane] = unpackShort(packShort(colour.x)); // as it is stored: its range is exact
+        second[lane] = colour.y;
+        third[lane] = colour.z;
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint receiver = at->deal->receiver[lane], index = at->deal->index[lane];
         if (!takesSample(at, lane) || index >= perPixel) {
             continue;
         }
-        const size_t first = firstStored(at->pixel[receiver], slots, perPixel) + index;
+        const size_t to = firstStored(at->pixel[receiver], slots, perPixel) + index;
         const bool finite = storesFinite(vec3(s->value[0][lane], s->value[1][lane], s->value[2][lane]));
         for (uint channel = 0u; channel < 3u; ++channel) {
-            radiance[first + channel * perPixel] = s->value[channel][lane];
+            radiance[to + channel * perPixel] = s->value[channel][lane];
         }
-        const float stored = finite ? l[lane] : WEDGE_FARTHEST_LAB;
-        colours[first] = (ushort)packShort(stored);
-        colours[first + perPixel] = (ushort)packShort(finite ? a[lane] : 0.0f);
-        colours[first + 2u * perPixel] = (ushort)packShort(finite ? b[lane] : 0.0f);
+        const float stored = finite ? first[lane] : WEDGE_FARTHEST_LAB;
+        colours[to] = (ushort)packShort(stored);
+        colours[to + perPixel] = (ushort)packShort(finite ? second[lane] : 0.0f);
+        colours[to + 2u * perPixel] = (ushort)packShort(finite ? third[lane] : 0.0f);
         state->low[receiver] = fmin(state->low[receiver], stored);
         state->high[receiver] = fmax(state->high[receiver], stored);
     }

@@ -7,7 +7,8 @@
 #include "shared/vec.h"
 
 /// Radiance: of each slot all samples' red, then green, then blue. Colours: likewise L*, a*, b* in pixels
-/// (WEDGE_LAB_PIXEL), in 16 bits (packShort()). Ranges: least and largest L* of each slot. Drawn: of pixels, samples.
+/// (WEDGE_LAB_PIXEL), or red, green, blue (WEDGE_RGB_PIXELS), in 16 bits (packShort()). Ranges: least and largest of
+/// their first number, of each slot. Drawn: of pixels, samples.
 typedef struct {
     __global const float* radiance;
     __global const ushort* colours;
