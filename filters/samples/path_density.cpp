@@ -30,7 +30,10 @@ public:
             { "spread", 0.0, 8.0, 3.0f,
                 "of the Gaussian by which what is left out goes to its surface, pixels; 0: it is lost" },
             { "exposure", 0.0, 1e9, 0.0f,
-                "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" } };
+                "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" },
+            { "widest", 0.0, 32.0, 0.0f,
+                "width up to which spread doubles where much is left out, pixels; less than twice spread: it does "
+                "not" } };
     }
     bool keepsAll(const Values& values) const override { return values[1] >= WEDGE_SAMPLE_REACH; }
     graph::KernelName kernel() const override { return { "filter/path_density.cl", "keepByDensity" }; }
@@ -50,6 +53,7 @@ public:
     }
     bool measuresDensity() const override { return true; }
     float spread(const Values& values) const override { return values[3]; }
+    float widest(const Values& values) const override { return values[5]; }
     float exposure(const Values& values) const override { return values[4]; }
 };
 
