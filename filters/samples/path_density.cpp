@@ -31,7 +31,7 @@ public:
                 "of the Gaussian by which what is left out goes to its surface, pixels; 0: it is lost" },
             { "exposure", 0.0, 1e9, 0.0f,
                 "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" },
-            { "widest", 0.0, 32.0, 0.0f,
+            { "widest", 0.0, 32.0, 12.0f,
                 "width up to which spread doubles where much is left out, pixels; less than twice spread: it does "
                 "not" } };
     }
