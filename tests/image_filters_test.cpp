@@ -20,13 +20,14 @@ constexpr int width = 45, height = 34;
 /// Values of each filter that change an image.
 const std::map<std::string, std::vector<float>> effective = { { "gaussian", { 1.7f } }, { "bilateral", { 1.2f, 0.7f } },
     { "median", { 1 } }, { "mad-median", { 1, 2 } }, { "sharpen", { 1.3f, 0.6f } }, { "bloom", { 0.2f, 0.3f, 0.4f } },
-    { "colour", { 0.5f, 1.5f, 1, 0.7f } }, { "box", { 2 } }, { "path-density", { 10, 0.2f, 1, 2, 0, 0, 0 } },
-    { "clamp", { 0.3f, 0, 0 } }, { "trim", { 0.3f, 1 } }, { "gmon", { 3, 1 } }, { "reweight", { 4, 0, 0 } } };
+    { "colour", { 0.5f, 1.5f, 1, 0.7f } }, { "box", { 2 } }, { "path-density", { 10, 0.2f, 1, 2, 0, 0, 0, 8 } },
+    { "clamp", { 0.3f, 0, 0, 0 } }, { "trim", { 0.3f, 1, 0 } }, { "gmon", { 3, 1, 0 } },
+    { "reweight", { 4, 0, 0, 0 } } };
 /// And values that do not.
 const std::map<std::string, std::vector<float>> neutral = { { "gaussian", { 0 } }, { "bilateral", { 0, 1 } },
     { "median", { 0 } }, { "mad-median", { 0, 2 } }, { "sharpen", { 1, 0 } }, { "bloom", { 0.2f, 0, 2 } },
-    { "colour", { 0.5f, 2, 3, 0 } }, { "box", { 0 } }, { "path-density", { 10, 4, 4, 2, 0, 0, 0 } },
-    { "clamp", { 1e9f, 0, 0 } }, { "trim", { 0, 1 } }, { "gmon", { 1, 1 } }, { "reweight", { 0, 0, 0 } } };
+    { "colour", { 0.5f, 2, 3, 0 } }, { "box", { 0 } }, { "path-density", { 10, 4, 4, 2, 0, 0, 0, 8 } },
+    { "clamp", { 1e9f, 0, 0, 0 } }, { "trim", { 0, 1, 0 } }, { "gmon", { 1, 1, 0 } }, { "reweight", { 0, 0, 0, 0 } } };
 
 render::Settings plain(bool filtered = false)
 {

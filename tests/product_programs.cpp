@@ -19,12 +19,14 @@ namespace {
 
 using render::Settings;
 
-/// With its defaults, but for a colour, which has no pass with those.
+/// With its defaults, but for a colour, which has no pass with those, and a spread, which most filters have none of.
 render::ChosenFilter chosen(const render::Filter& filter)
 {
     render::ChosenFilter out { filter.name(), {} };
     for (const render::FilterParameter& parameter : filter.parameters()) {
-        out.values.push_back(parameter.name == "red" ? 0.5f : parameter.standard);
+        const float other = parameter.name == "red" ? 0.5f : 1.0f;
+        const bool standard = parameter.name != "red" && parameter.name != "spread";
+        out.values.push_back(standard ? parameter.standard : other);
     }
     return out;
 }

@@ -112,9 +112,15 @@ TEST_CASE("a crop has the bits of the whole, of one band and of several, whateve
             s.bounces = 1;
             return s;
         };
-        for (const render::Settings& kind : { plain(700), uniform(20), adaptive(16), adaptive(40) }) {
-            CAPTURE(kind.spp);
-            render::Settings s = with(kind, { "path-density", { 10, 0.5f, 1.5f, 2, 0, 0, 0 } });
+        struct Kind {
+            render::Settings settings;
+            float spread, widest;
+        };
+        for (const Kind& kind : { Kind { plain(700), 2, 0 }, Kind { uniform(20), 0.5f, 8 }, Kind { adaptive(16), 2, 0 },
+                 Kind { adaptive(40), 0.5f, 2 } }) {
+            CAPTURE(kind.settings.spp);
+            render::Settings s =
+                with(kind.settings, { "path-density", { 10, 0.5f, 1.5f, kind.spread, 0, 0, 0, kind.widest } });
             const std::vector<float> whole = rendered(renderer, s);
             CHECK(notFinite(whole) == 0);
             s.crop = { 17, 11, 30, 23 };

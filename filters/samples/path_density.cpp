@@ -33,7 +33,10 @@ public:
                 "what radiance is multiplied by before colours are compared; 0: the frame's median is middle grey" },
             { "rgb", 0.0, 1.0, 0.0f, "1: colours are compared as exposed RGB, not as CIELAB", true },
             { "approximate", 0.0, 4.0, 0.0f,
-                "epsilon of approximate neighbours: up to 1 + epsilon times as far as the true ones; 0: exact" } };
+                "epsilon of approximate neighbours: up to 1 + epsilon times as far as the true ones; 0: exact" },
+            { "widest", 0.0, 32.0, 12.0f,
+                "width up to which spread doubles where much is left out, pixels; less than twice spread: it does "
+                "not" } };
     }
     bool keepsAll(const Values& values) const override { return values[1] >= WEDGE_SAMPLE_REACH; }
     graph::KernelName kernel() const override { return { "filter/path_density.cl", "keepByDensity" }; }
@@ -54,6 +57,7 @@ public:
     bool comparesRgb(const Values& values) const override { return values[5] > 0.0f; }
     bool measuresDensity() const override { return true; }
     float spread(const Values& values) const override { return values[3]; }
+    float widest(const Values& values) const override { return values[7]; }
     float exposure(const Values& values) const override { return values[4]; }
 };
 

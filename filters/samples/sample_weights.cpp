@@ -24,6 +24,11 @@ FilterParameter spreadParameter()
     return { "spread", 0.0, 8.0, 0.0f,
         "of the Gaussian by which what is left out goes to its surface, pixels; 0: it is lost" };
 }
+FilterParameter widestParameter()
+{
+    return { "widest", 0.0, 32.0, 0.0f,
+        "width up to which spread doubles where much is left out, pixels; less than twice spread: it does not" };
+}
 
 class Clamp : public render::SampleFilter {
 public:
@@ -32,7 +37,7 @@ public:
     std::vector<FilterParameter> parameters() const override
     {
         return { { "level", 1e-3, 1e9, 10.0f, "largest luminance; 1e9: all is kept" }, spreadParameter(),
-            exposureParameter() };
+            exposureParameter(), widestParameter() };
     }
     bool keepsAll(const Values& values) const override { return values[0] >= 1e9f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepClamped" }; }
@@ -43,6 +48,7 @@ public:
     bool losesLight() const override { return true; }
     render::Arguments arguments(const Values& values, bool) const override { return { value("level", values[0]) }; }
     float spread(const Values& values) const override { return values[1]; }
+    float widest(const Values& values) const override { return values[3]; }
     float exposure(const Values& values) const override { return values[2]; }
 };
 
@@ -52,12 +58,13 @@ public:
     std::string meaning() const override { return "leaves out the brightest and the darkest samples of each pixel"; }
     std::vector<FilterParameter> parameters() const override
     {
-        return { { "share", 0.0, 0.5, 0.1f, "of the samples, at either end" }, spreadParameter() };
+        return { { "share", 0.0, 0.5, 0.1f, "of the samples, at either end" }, spreadParameter(), widestParameter() };
     }
     bool keepsAll(const Values& values) const override { return values[0] <= 0.0f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepTrimmed" }; }
     render::Arguments arguments(const Values& values, bool) const override { return { value("share", values[0]) }; }
     float spread(const Values& values) const override { return values[1]; }
+    float widest(const Values& values) const override { return values[2]; }
     float exposure(const Values&) const override { return 1.0f; } // orders of luminances are those of any
 };
 
@@ -67,7 +74,8 @@ public:
     std::string meaning() const override { return "median of the means of groups of samples, as far as these differ"; }
     std::vector<FilterParameter> parameters() const override
     {
-        return { { "groups", 1.0, WEDGE_MOST_GROUPS, 9.0f, "of samples; 1: all are kept", true }, spreadParameter() };
+        return { { "groups", 1.0, WEDGE_MOST_GROUPS, 9.0f, "of samples; 1: all are kept", true }, spreadParameter(),
+            widestParameter() };
     }
     bool keepsAll(const Values& values) const override { return values[0] <= 1.0f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepMedianOfMeans" }; }
@@ -76,6 +84,7 @@ public:
         return { value("groups", static_cast<std::uint32_t>(values[0])) };
     }
     float spread(const Values& values) const override { return values[1]; }
+    float widest(const Values& values) const override { return values[2]; }
     float exposure(const Values&) const override { return 1.0f; }
 };
 
@@ -97,6 +106,7 @@ public:
     bool losesLight() const override { return true; }
     render::Arguments arguments(const Values& values, bool) const override { return { value("kappa", values[0]) }; }
     float spread(const Values& values) const override { return values[1]; }
+    float widest(const Values& values) const override { return values[3]; }
     float exposure(const Values& values) const override { return values[2]; }
 };
 

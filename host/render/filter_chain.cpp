@@ -22,7 +22,7 @@ std::vector<std::unique_ptr<const Filter>>& registered()
 const Filter& filterOf(const ChosenFilter& chosen)
 {
     const Filter* filter = filterNamed(chosen.name);
-    if (filter == nullptr || filter->parameters().size() != chosen.values.size()) {
+    if (filter == nullptr || filter->parameters().size() < chosen.values.size()) {
         throw std::logic_error("no filter \"" + chosen.name + "\" of so many parameters is registered");
     }
     return *filter;
@@ -66,6 +66,17 @@ std::string namesOf(const std::vector<std::string>& on) { return fmt::format("{}
 std::string shortly(const ChosenFilter& chosen)
 {
     return chosen.on.empty() ? chosen.name : fmt::format("{}:{}={}", chosen.name, filterTargets, namesOf(chosen.on));
+}
+
+/// Its values, and for parameters that it has none of what they are where nobody says.
+std::vector<float> valuesOf(const ChosenFilter& chosen)
+{
+    std::vector<float> out = chosen.values;
+    const std::vector<FilterParameter> parameters = filterOf(chosen).parameters();
+    for (std::size_t i = out.size(); i < parameters.size(); ++i) {
+        out.push_back(parameters[i].standard);
+    }
+    return out;
 }
 
 } // namespace
@@ -134,8 +145,9 @@ std::string describe(const std::vector<ChosenFilter>& filters)
     for (const ChosenFilter& chosen : filters) {
         out += (out.empty() ? "" : " ") + chosen.name;
         const std::vector<FilterParameter> parameters = filterOf(chosen).parameters();
+        const std::vector<float> values = valuesOf(chosen);
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-            out += fmt::format("{}{}={}", i == 0 ? ":" : ",", parameters[i].name, chosen.values[i]);
+            out += fmt::format("{}{}={}", i == 0 ? ":" : ",", parameters[i].name, values[i]);
         }
         out += chosen.on.empty() ? "" : fmt::format(",{}={}", filterTargets, namesOf(chosen.on));
     }
@@ -171,7 +183,8 @@ ChosenSampleFilter sampleFilterOf(const Settings& settings)
     for (const ChosenFilter& chosen : settings.filters) {
         if (stageOf(chosen) == Stage::Samples) {
             const auto& filter = static_cast<const SampleFilter&>(filterOf(chosen));
-            return { filter.keepsAll(chosen.values) ? nullptr : &filter, chosen.values };
+            const std::vector<float> values = valuesOf(chosen);
+            return { filter.keepsAll(values) ? nullptr : &filter, values };
         }
     }
     return {};
@@ -195,7 +208,7 @@ graph::Handle<Radiance> filteredImage(FrameBuilder& frame, const std::string& ta
 {
     for (const ChosenFilter& chosen : frame.settings.filters) {
         if (stageOf(chosen) != Stage::Samples && isOn(chosen, target)) {
-            image = static_cast<const ImageFilter&>(filterOf(chosen)).declare(frame, chosen.values, image);
+            image = static_cast<const ImageFilter&>(filterOf(chosen)).declare(frame, valuesOf(chosen), image);
         }
     }
     return image;

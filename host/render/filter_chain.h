@@ -19,6 +19,8 @@ struct FilterParameter {
     bool whole = false; ///< whole numbers alone
 };
 
+// A chosen filter may have fewer values than its filter has parameters: the last ones are standard then.
+
 /// Where in a frame a filter acts, in the order in which frames come there.
 enum class Stage {
     Samples, ///< of a term, before anything is made of them
@@ -85,6 +87,8 @@ public:
     virtual bool losesLight() const { return false; }
     /// Standard deviation, pixels, of the Gaussian by which what is left out is spread over its surface; 0: it is lost.
     virtual float spread(const std::vector<float>& values) const = 0;
+    /// The width that it grows to by doubling where much is left out, pixels; less than twice spread(): it does not.
+    virtual float widest(const std::vector<float>& values) const = 0;
     /// Whether its kernel tells the mean isolation of pixels' samples, `density`.
     virtual bool measuresDensity() const { return false; }
     /// What colours are multiplied by before they are compared; 0: as the frame's median says.

@@ -97,7 +97,8 @@ TermMeans SampleBins::kept(const TermMeans& all, bool layers)
                     to("kept_deviation", out.deviation, graph::floats), to("kept_spreads", out.spreads, shortPairs),
                     to("kept_squares", out.squares, graph::floats) })));
     graph::Handle<Value> parts;
-    spread(frame_, chosen_.filter->spread(chosen_.values), { excess, taken, sums, parts });
+    spread(frame_, chosen_.filter->spread(chosen_.values), chosen_.filter->widest(chosen_.values),
+        { excess, taken, sums, parts });
     out.value = like("value of kept samples", all.value);
     meansOfKept(frame_, sums, taken, out.value);
     if (layers) {

@@ -25,8 +25,9 @@ struct LostLight {
     graph::Handle<Value>& parts; ///< means of a part of those; of no graph: there are none
 };
 
-/// Declares that what pixels lose goes to others of their surface, by a Gaussian of so many pixels; 0: it is lost.
-void spread(FrameBuilder& frame, float sigma, LostLight lost);
+/// Declares that what pixels lose goes to others of their surface, by a Gaussian of sigma pixels; 0: it is lost. Its
+/// width grows by doubling up to `widest` where a pixel would get much of it back; less than 2 sigma: it does not.
+void spread(FrameBuilder& frame, float sigma, float widest, LostLight lost);
 
 /// Declares the means of what is kept, in whatever format of colours.
 void meansOfKept(FrameBuilder& frame, const graph::Handle<Sums>& sums, const graph::Handle<Count>& taken,

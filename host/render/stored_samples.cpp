@@ -173,7 +173,8 @@ void StoredSamples::keep()
 
 void StoredSamples::spread()
 {
-    render::spread(frame_, chosen_.filter->spread(chosen_.values), { excess, taken, sums, parts });
+    render::spread(frame_, chosen_.filter->spread(chosen_.values), chosen_.filter->widest(chosen_.values),
+        { excess, taken, sums, parts });
 }
 
 void StoredSamples::means(graph::Handle<Value>& mean) const { meansOfKept(frame_, sums, taken, mean); }

@@ -172,7 +172,7 @@ check sample_density_image "$scenes/penumbra.toml" --traversal wide --size 9x3 -
 check sample_clamp "$scenes/penumbra.toml" --traversal scalar --size 7x3 --method mc --spp 2 --bounces 1 --add-filter clamp
 check sample_trim "$scenes/penumbra.toml" --traversal wide --size 7x3 --method mc --spp 5 --bounces 1 --add-filter trim:share=0.3
 check sample_gmon "$scenes/penumbra.toml" --traversal wide --size 7x3 --method mc --spp 5 --bounces 1 --add-filter gmon:groups=3
-check sample_reweight "$scenes/penumbra.toml" --traversal wide --size 7x3 --method mc --spp 2 --bounces 1 --add-filter reweight:spread=1
+check sample_reweight "$scenes/penumbra.toml" --traversal wide --size 7x3 --method mc --spp 2 --bounces 1 --add-filter reweight:spread=1,widest=4
 # The same by brightness: with layers and without, in few bits and in many, and from step to step.
 check binned_density "$scenes/materials.toml" --traversal wide --size 9x5 --method mc --spp 3 --bounces 1 --antialias --add-filter path-density
 check binned_density_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --add-filter path-density
