@@ -103,7 +103,8 @@ enum class Temporal {
     Published, ///< of the frame before, whatever lights it: (6.24) to (6.26) of thesis chapter 6
 };
 
-/// A filter, by its name, and its parameters' values in their order (filter_chain.h).
+/// A filter, by its name, and its parameters' values in their order (filter_chain.h); those that are left out at the
+/// end are the filter's own.
 struct ChosenFilter {
     std::string name;
     std::vector<float> values;

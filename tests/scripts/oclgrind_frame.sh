@@ -168,6 +168,7 @@ check image_filters "$scenes/penumbra.toml" --traversal wide --size 19x13 --meth
 check term_filters "$scenes/materials.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --add-filter box:on=indirectDiffuse+indirectGlossy --add-filter gaussian:on=direct
 check term_filters_antialiased "$scenes/materials.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --antialias --add-filter box:on=indirectDiffuse --add-filter box:on=direct+indirect
 check sample_density "$scenes/materials.toml" --traversal wide --size 9x5 --method mc --spp 3 --bounces 1 --add-filter path-density
+check sample_density_rgb "$scenes/materials.toml" --traversal wide --size 7x3 --method mc --spp 3 --bounces 1 --add-filter path-density:rgb=1,approximate=1
 check sample_density_image "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --spp 18 --bounces 1 --add-filter path-density
 check sample_clamp "$scenes/penumbra.toml" --traversal scalar --size 7x3 --method mc --spp 2 --bounces 1 --add-filter clamp
 check sample_trim "$scenes/penumbra.toml" --traversal wide --size 7x3 --method mc --spp 5 --bounces 1 --add-filter trim:share=0.3
