@@ -137,7 +137,7 @@ TEST_CASE("all variants are measured of a scene file, and there are filters for 
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json all = Json::parse(place.text("results.json"));
     CHECK(all["variants"][0] == "mean");
-    CHECK(all["variants"].size() == 16);
+    CHECK(all["variants"].size() == 17);
     CHECK(all["skipped"].empty());
     const Json& points = all["scenes"][0]["points"];
     REQUIRE(points.size() == all["variants"].size());

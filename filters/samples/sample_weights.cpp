@@ -95,7 +95,7 @@ public:
     std::vector<FilterParameter> parameters() const override
     {
         return { { "kappa", 0.0, 1e6, 1.0f, "samples of a brightness that are asked for; 0: all are kept" },
-            spreadParameter(), exposureParameter() };
+            spreadParameter(), exposureParameter(), widestParameter() };
     }
     bool keepsAll(const Values& values) const override { return values[0] <= 0.0f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepReweighted" }; }

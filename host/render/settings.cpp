@@ -124,29 +124,28 @@ std::string filtersOfBins()
 /// Of filters of samples.
 void validateSampleFilter(const Settings& s, bool distributed)
 {
-    const auto filter = std::ranges::find_if(
-        s.filters, [](const ChosenFilter& chosen) { return filterNamed(chosen.name)->stage() == Stage::Samples; });
-    if (sampleFilterOf(s).filter == nullptr) {
+    const auto [filter, values] = sampleFilterOf(s);
+    if (filter == nullptr) {
         return;
     }
-    if (distributed && !sampleFilterOf(s).filter->kernelOfBins()) {
+    if (distributed && !filter->kernelOfBins()) {
         throw UsageError("this filter of samples is of frames through a pinhole where nothing moves, neither "
                          "antialiased nor progressive",
-            filter->name, fmt::format("choose {}, or leave it out, a scene's with --no-filters", filtersOfBins()));
+            filter->name(), fmt::format("choose {}, or leave it out, a scene's with --no-filters", filtersOfBins()));
     }
-    if (distributed && sampleFilterOf(s).filter->comparesRgb(filter->values)) {
+    if (distributed && filter->comparesRgb(values)) {
         throw UsageError("colours are compared as RGB in frames through a pinhole where nothing moves, neither "
                          "antialiased nor progressive: all others know samples by their L*",
-            filter->name, "leave out rgb=1");
+            filter->name(), "leave out rgb=1");
     }
     if (distributed && s.method == Method::AxisAligned && s.distributed.published) {
         throw UsageError("filters of samples do not go with published frames through a lens or shutter, or antialiased",
-            filter->name, "leave it out, a scene's with --no-filters");
+            filter->name(), "leave it out, a scene's with --no-filters");
     }
     if (s.method == Method::AxisAligned && s.sampling == Sampling::Adaptive
         && s.indirect.counts == IndirectCounts::Spectrum) {
         throw UsageError("filters of samples do not go with counts from the spectrum, which know no samples",
-            filter->name, "add --counts variance or --sampling uniform, or leave it out");
+            filter->name(), "add --counts variance or --sampling uniform, or leave it out");
     }
 }
 
