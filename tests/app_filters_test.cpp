@@ -182,6 +182,10 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
         CHECK(contains(outcome.err, says));
         CHECK(std::ranges::count(outcome.err, '\n') == 1);
     };
+    const Outcome open = place.run(
+        { "render", box, "--integrator", "ao", "--spp", "16", "--add-filter", "median:on=direct", "-o", "a.exr" });
+    CHECK(open.status == wrongCall);
+    CHECK(contains(open.err, "the frame has: image, indirect, ambient"));
     refusedCall({ "--add-filter", "median", "--add-filter", "clamp" }, "give clamp before median");
     refusedCall(
         { "--add-filter", "median", "--add-filter", "median:on=direct" }, "give median:on=direct before median");

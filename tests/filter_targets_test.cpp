@@ -1,5 +1,6 @@
 // What filters of images are on (host/render/filter_chain.h): terms, direct and indirect light, over whole frames.
 #include "host/render/filter_chain.h"
+#include "host/render/progressive.h"
 #include "tests/filtered_frames.h"
 
 #include <doctest/doctest.h>
@@ -264,6 +265,29 @@ TEST_CASE("a filter of samples may be on one of its terms")
         CHECK(rejected({ "indirectDiffuse" }).second == 0);
         CHECK(rejected({ "indirectGlossy" }).first == 0);
         CHECK(rejected({ "indirectGlossy" }).second > 0);
+    });
+}
+
+TEST_CASE("the error that progressive frames tell is that of filters of terms, too")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings s = sized(render::monteCarlo(1024), width, height);
+        s.bounces = 2;
+        renderPixels(renderer, s);
+        const std::vector<float> truth = shown(renderer, "beauty");
+        s.spp = 64;
+        s.progressive = true;
+        render::ErrorEstimate told {};
+        renderer.renderProgressively(
+            with(s, colour(0, { "indirectDiffuse" })), {},
+            [&](const render::ProgressiveStep& step) { told = step.error; }, false);
+        const double error = rmse(shown(renderer, "beauty"), truth);
+        CAPTURE(told.rmse());
+        CAPTURE(error);
+        CHECK(told.bias > told.noise);
+        CHECK(std::abs(told.rmse() - error) < 0.3 * error);
     });
 }
 

@@ -138,40 +138,56 @@ TEST_CASE(
 
 TEST_CASE("addChange: what filters change, reflected, on radiance that is never below 0")
 {
-    for (const Kept kept : { Kept::Full, Kept::Lean }) {
+    struct Kind {
+        Kept kept;
+        bool analysed;
+    };
+    for (const Kind kind :
+        { Kind { Kept::Full, true }, { Kept::Lean, true }, { Kept::Full, false }, { Kept::Lean, false } }) {
+        const bool analysed = kind.analysed;
         unsigned cut = 0, without = 0;
         const auto test = [&](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
             const auto planes = [&] {
                 return filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 2); });
             };
-            Planes<float> texture = planes(), before = planes(), after = planes(), radiance = planes();
+            Planes<float> texture = planes(), before = planes(), after = planes(), radiance = planes(),
+                          filteredTexture = planes(), beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
+                              return random() % 3 == 0 ? -1.0 : uniform(random);
+                          });
             everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
                 if (random() % 5 == 0) {
                     texture.setVector(x, y, { 0, 0, 0 });
                     before.setVector(x, y, { noNumber, noNumber, noNumber });
                 }
             });
-            RegionPass pass(frame, "addChange", { "radiance" });
-            pass.plane("texture", texture);
-            texture = pass.pixels<float>("texture");
+            RegionPass pass(frame, "addChange", { "radiance" }, analysed ? 0 : 1);
+            REQUIRE(pass.has("filteredTexture") == analysed);
+            REQUIRE(pass.has("beta") == analysed);
+            for (const auto& [name, plane] :
+                { std::pair("texture", &texture), { "filteredTexture", &filteredTexture }, { "beta", &beta } })
+                if (pass.has(name)) {
+                    pass.plane(name, *plane);
+                    *plane = pass.pixels<float>(name);
+                }
             pass.plane("before", before);
             pass.plane("after", after);
             pass.plane("radiance", radiance);
             pass.runIn(region, paramsOf(region));
             const auto found = pass.floats("radiance");
             everyPixel(region.window, [&](int x, int y) {
-                const bool has = luminanceOf(texture.vector(x, y)) > 0;
+                const bool has = luminanceOf(texture.vector(x, y)) > 0, apart = analysed && beta.at(x, y) >= 0;
+                const Planes<float>& k = apart ? filteredTexture : texture;
                 without += has ? 0 : 1;
                 for (std::size_t c = 0; c < 3; ++c) {
                     const double sum = has ? radiance.at(x, y, c)
-                            + static_cast<double>(texture.at(x, y, c)) * (after.at(x, y, c) - before.at(x, y, c))
+                            + static_cast<double>(k.at(x, y, c)) * (after.at(x, y, c) - before.at(x, y, c))
                                            : radiance.at(x, y, c);
                     cut += sum < 0 ? 1 : 0;
                     REQUIRE(nearTo(found.at(x, y, c), std::max(sum, 0.0)));
                 }
             });
         };
-        onEveryRegion(80, kept, test, withTermFilter());
+        onEveryRegion(80, kind.kept, test, withTermFilter());
         CHECK(cut > 100);
         CHECK(without > 100);
     }

@@ -44,7 +44,7 @@ std::any readFilter(scene::TableReader& table, scene::Warnings& /*warnings*/)
     }
     const render::Filter& filter = *render::filterNamed(chosen.name);
     chosen.on = table.choices(render::filterTargets, render::targetsOf(filter));
-    if (const std::string wrong = render::wrongTargets(chosen.on); !wrong.empty()) {
+    if (const std::string wrong = render::wrongTargets(filter, chosen.on); !wrong.empty()) {
         table.fail(render::filterTargets, fmt::format("of filter {} is wrong: it is {}", chosen.name, wrong),
             fmt::format("{}", fmt::join(chosen.on, ", ")), "leave one out");
     }

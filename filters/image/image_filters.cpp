@@ -1,4 +1,4 @@
-// Filters of finished images (kernels/filter/image.cl, docs/image-filters.md).
+// Filters of images (kernels/filter/image.cl, docs/image-filters.md).
 #include "host/render/filter_chain.h"
 #include "kernels/shared/image_filter.h"
 

@@ -100,7 +100,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
                 std::ranges::transform(texts, std::back_inserter(o.filters),
                     [](const std::string& text) { return render::filterCall("--add-filter", text); });
             },
-            "Filter samples or the finished image, listed below: path-density, bilateral:sigma=2,tolerance=0.5; "
+            "Filter samples, the image or parts of it, listed below: path-density, bilateral:sigma=2,tolerance=0.5; "
             "several "
             "are done in the order given, after the scene's")
         ->type_name("FILTER")

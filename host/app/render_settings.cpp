@@ -243,7 +243,10 @@ void refuseUndistributed(const RenderOptions& o, const std::string& method)
 void refuseIdleTargets(const RenderOptions& o, const render::Settings& s, const render::PreparedScene& scene)
 {
     const std::vector<render::Term> terms = render::frameTerms(s, scene);
-    std::vector<std::string> there { render::targets::image, render::targets::direct };
+    std::vector<std::string> there { render::targets::image };
+    if (render::countOf(render::Part::Direct, terms) > 0 || !render::frameUnfiltered(s, scene).empty()) {
+        there.emplace_back(render::targets::direct);
+    }
     if (render::countOf(render::Part::Indirect, terms) > 0) {
         there.emplace_back(render::targets::indirect);
     }

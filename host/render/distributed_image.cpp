@@ -164,11 +164,11 @@ void DistributedSamples::addFiltered(
             shape_.published ? reads("termRadiance", term.means.radiance)
                              : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) });
-    addTermFilters(term, &filtered, texture, radiance);
+    addTermFilters(term, &filtered, &texture, radiance);
 }
 
 void DistributedSamples::addTermFilters(WaveTerm& term, const FilteredTerm* filtered,
-    const graph::Handle<Texture>& texture, graph::Handle<Radiance>& radiance)
+    const graph::Handle<Texture>* filteredTexture, graph::Handle<Radiance>& radiance)
 {
     const std::string target = term.target().name;
     if (!isFiltered(f_.settings, target)) {
@@ -177,15 +177,18 @@ void DistributedSamples::addTermFilters(WaveTerm& term, const FilteredTerm* filt
     const char* pass = "filters of terms";
     const bool shares = filtered != nullptr && filtered->shares.graph != 0;
     auto arrives = f_.graph.plane<Radiance>("what arrives", graph::vectors);
+    const auto beta = [&] { return filtered != nullptr ? reads("beta", term.means.beta) : graph::absent("beta"); };
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "arrivingAtWaves" },
-        { pixels(), reads("texture", texture), reads("value", term.means.value),
+        { pixels(), reads("texture", term.means.texture), reads("value", term.means.value),
             filtered != nullptr ? reads("filtered", filtered->value) : graph::absent("filtered", graph::vectors),
-            filtered != nullptr ? reads("beta", term.means.beta) : graph::absent("beta"),
-            shares ? reads("shares", filtered->shares) : graph::absent("shares", shortPairs),
+            beta(), shares ? reads("shares", filtered->shares) : graph::absent("shares", shortPairs),
             writes("arrives", arrives) });
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "addChange" },
-        { pixels(), reads("texture", texture), reads("before", arrives),
-            reads("after", filteredImage(f_, target, arrives)), updates("radiance", radiance) });
+        { pixels(), reads("texture", term.means.texture),
+            filteredTexture != nullptr ? reads("filteredTexture", *filteredTexture)
+                                       : graph::absent("filteredTexture", graph::vectors),
+            beta(), reads("before", arrives), reads("after", filteredImage(f_, target, arrives)),
+            updates("radiance", radiance) });
 }
 
 void DistributedSamples::blur(graph::Handle<Radiance>& image)
@@ -242,8 +245,8 @@ void DistributedSamples::compose()
         const auto unfiltered = [filters = filters(), state = state_](
                                     const Run&) { return !filters || !state->analysed; };
         if (isFiltered(f_.settings, term->target().name)) {
-            f_.graph.only("filters of terms", unfiltered,
-                [&] { addTermFilters(*term, nullptr, term->means.texture, sumOf(*term)); });
+            f_.graph.only(
+                "filters of terms", unfiltered, [&] { addTermFilters(*term, nullptr, nullptr, sumOf(*term)); });
         }
     }
     lens_ = own.lens;

@@ -119,8 +119,9 @@ private:
     void addOwn(WaveTerm& term, const TermMeans& means, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
     /// own: blurs of the pixels.
     void addFiltered(WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance);
-    /// What filters that are on a term change of the image. filtered: null where the value is shown as it is.
-    void addTermFilters(WaveTerm& term, const FilteredTerm* filtered, const graph::Handle<Texture>& texture,
+    /// What filters that are on a term change of the image. filtered, filteredTexture: null where value and texture are
+    /// shown as they are.
+    void addTermFilters(WaveTerm& term, const FilteredTerm* filtered, const graph::Handle<Texture>* filteredTexture,
         graph::Handle<Radiance>& radiance);
     void blur(graph::Handle<Radiance>& image);
     graph::Handle<Radiance>& sumOf(WaveTerm& term);

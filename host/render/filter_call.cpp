@@ -76,7 +76,7 @@ std::vector<std::string> targetsIn(const std::string& call, const Filter& filter
                 remedy(target, { known.begin(), known.end() }));
         }
     }
-    if (const std::string wrong = wrongTargets(on); !wrong.empty()) {
+    if (const std::string wrong = wrongTargets(filter, on); !wrong.empty()) {
         throw UsageError(fmt::format("filter {} is {}", filter.name(), wrong), call, "leave one out");
     }
     return on;

@@ -118,12 +118,17 @@ std::vector<std::string> targetsOf(const Filter& filter)
     return out;
 }
 
-std::string wrongTargets(const std::vector<std::string>& on)
+std::string wrongTargets(const Filter& filter, const std::vector<std::string>& on)
 {
     for (std::size_t i = 0; i < on.size(); ++i) {
         if (std::find(on.begin(), on.begin() + static_cast<std::ptrdiff_t>(i), on[i])
             != on.begin() + static_cast<std::ptrdiff_t>(i)) {
             return "twice on " + on[i];
+        }
+        if (filter.stage() == Stage::Samples && on[i] != on.front()
+            && isOn({ filter.name(), {}, on }, targets::indirect)) {
+            return fmt::format(
+                "on {}, which is part of {}", on[i] == targets::indirect ? on.front() : on[i], targets::indirect);
         }
         if (stageOn(on[i]) != stageOn(on.front())) {
             return fmt::format("on {} and on {}, which come one after the other", on.front(), on[i]);

@@ -107,9 +107,9 @@ const std::vector<std::unique_ptr<const Filter>>& registeredFilters();
 const Filter* filterNamed(const std::string& name);
 /// What it may be on.
 std::vector<std::string> targetsOf(const Filter& filter);
-/// What is wrong with what a filter is on, for people: twice the same, or of several stages; "" where nothing is. on:
-/// of targetsOf()
-std::string wrongTargets(const std::vector<std::string>& on);
+/// What is wrong with what a filter is on, for people: twice the same, or a part of another, or of several stages; ""
+/// where nothing is. on: of targetsOf()
+std::string wrongTargets(const Filter& filter, const std::vector<std::string>& on);
 
 /// Adds one. Not while anybody renders.
 void registerFilter(std::unique_ptr<const Filter> filter);

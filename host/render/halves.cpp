@@ -177,7 +177,8 @@ void HalvesFrame::estimateError(bool analysed)
     FrameBuilder& f = *halves_[0].frame;
     noise_ = graph_.plane<Squares>("noise", graph::floats);
     bias_ = graph_.plane<Squares>("bias", graph::floats);
-    const bool kept = sampleFilterOf(settings_).filter != nullptr;
+    // What filters of samples and of terms take away is not in the image, and no noise.
+    const bool kept = sampleFilterOf(settings_).filter != nullptr || hasStage(settings_.filters, Stage::Terms);
     const auto filtered = [analysed, kept, state = halves_[0].samples->state()](const graph::Launch&) -> std::uint32_t {
         return kept || (analysed && state->analysed) ? 1 : 0;
     };

@@ -42,6 +42,7 @@ void spread(FrameBuilder& frame, float sigma, float widest, LostLight lost)
     if (sigma <= 0.0f) {
         return;
     }
+    sigma = std::max(sigma, 1e-3f); // widths that double reach any from here, also where small floats are 0
     float last = sigma;
     while (2.0f * last <= widest) {
         last *= 2.0f;

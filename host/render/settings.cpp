@@ -136,7 +136,7 @@ void validateSampleFilter(const Settings& s, bool distributed)
     if (distributed && filter->comparesRgb(values)) {
         throw UsageError("colours are compared as RGB in frames through a pinhole where nothing moves, neither "
                          "antialiased nor progressive: all others know samples by their L*",
-            filter->name(), "leave out rgb=1");
+            filter->name(), "leave out rgb=1, a scene's filters with --no-filters");
     }
     if (distributed && s.method == Method::AxisAligned && s.distributed.published) {
         throw UsageError("filters of samples do not go with published frames through a lens or shutter, or antialiased",

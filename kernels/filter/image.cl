@@ -1,4 +1,4 @@
-// Filters of the finished image: linear radiance, 3 planes, whatever it shows. Pixels that are not finite in a channel
+// Filters of images: linear radiance, 3 planes, whatever it shows. Pixels that are not finite in a channel
 // are left out of what others are made of, and something is made of those.
 #include "core/finite.h"
 #include "core/pixel.h"

@@ -51,7 +51,7 @@ WEDGE_FN Kept nothingKept(void)
 /// Adds a sample, which counts `weight`. Of weights of 1 the sums are those of no filter, to the bit.
 WEDGE_INLINE void keepSample(Kept* kept, Vec3 radiance, float weight, bool ofPart)
 {
-    if (!storesFinite(radiance)) {
+    if (!finiteVec(radiance)) {
         return;
     }
     const float l = luminance(radiance);

@@ -81,7 +81,7 @@ __kernel void keepBins(PARAMETERS)
     const uint size = p.planeSize;
     const KeptBins kept = keptBins(bins, shares, size, i);
     const Vec3 all = LOAD_value(size, i), factor = LOAD_texture(size, i);
-    const bool finite = storesFinite(all), whole = kept.whole && finite;
+    const bool finite = finiteVec(all), whole = kept.whole && finite;
     const float weight = lossy != 0u ? kept.all : kept.weight;
     const Vec3 ofBins = vecScale(kept.sum, 1.0f / fmax(weight, 1e-30f));
     const Vec3 ofAll = vec3(keptOf(&kept, all.x, kept.sum.x, kept.total.x, weight),

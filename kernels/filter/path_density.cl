@@ -198,8 +198,8 @@ __kernel void keepByDensity(PARAMETERS)
                 among[lane] != 0 ? 0.0f : isolationOf(&stored, p, x, y, j, k, stretch, HAS_density ? 0.0f : low);
             isolations += isolation;
             const Vec3 sample = storedRadiance(&stored, i, j);
-            plainest = isolation < least && storesFinite(sample) ? j : plainest;
-            least = storesFinite(sample) ? fmin(least, isolation) : least;
+            plainest = isolation < least && finiteVec(sample) ? j : plainest;
+            least = finiteVec(sample) ? fmin(least, isolation) : least;
             const float weight = isolation <= low ? 1.0f : fmax(0.0f, (high - isolation) / (high - low));
             keepSample(&kept, sample, weight, j < ofPart);
         }

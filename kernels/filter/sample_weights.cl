@@ -23,7 +23,7 @@ WEDGE_FN void countWhole(Kept* kept)
 WEDGE_INLINE float storedLuminance(const StoredSamples* s, uint pixel, uint index)
 {
     const Vec3 radiance = storedRadiance(s, pixel, index);
-    return storesFinite(radiance) ? luminance(radiance) : INFINITY;
+    return finiteVec(radiance) ? luminance(radiance) : INFINITY;
 }
 
 /// Samples brighter than a level are made as bright as that, and keep their hue.
@@ -161,7 +161,7 @@ WEDGE_FN void addCascades(const StoredSamples* s, uint pixel, float scale, Casca
 {
     for (uint j = 0u; j < s->drawn[pixel]; ++j) {
         const Vec3 radiance = storedRadiance(s, pixel, j);
-        if (storesFinite(radiance)) {
+        if (finiteVec(radiance)) {
             addToCascades(cascades, scale * luminance(radiance), 1.0f);
         }
     }

@@ -53,8 +53,10 @@ __kernel void spreadSums(PARAMETERS)
 
 /// The same where the width follows from what a pixel loses: the narrowest of sigma, 2 sigma, 4 sigma and so on, at
 /// which the luminance of what the pixel itself gets back is at most a share of the mean around it. `widest`, the last
-/// of these, where there is none. in   as before; sums: R, G, B of what is kept of pixels' samples; taken: samples out
-/// per; width: pixels; both 0 where nothing is lost
+/// of these, where there is none.
+///
+/// in   as before; sums: R, G, B of what is kept of pixels' samples; taken: samples
+/// out  per; width: pixels; both 0 where nothing is lost
 #include "pass/spreadWidths.h"
 #ifdef PASS_spreadWidths
 __kernel void spreadWidths(PARAMETERS)

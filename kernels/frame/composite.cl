@@ -207,7 +207,10 @@ __kernel void addIndirect(PARAMETERS)
 #endif
 
 /// What arrives of a term, as an image. Pixels without the term have no number there, which filters of images leave
-/// out. in   value: 3 planes; taken
+/// out.
+///
+/// in   value: 3 planes; taken
+/// out  arrives: 3 planes
 #include "pass/arrivingAtPixels.h"
 #ifdef PASS_arrivingAtPixels
 __kernel void arrivingAtPixels(PARAMETERS)
@@ -242,7 +245,7 @@ __kernel void addTermChange(PARAMETERS)
 #endif
 
 /// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each). Where there are shares, of
-/// ownShares(), light falls back to `noisy`; `change` is what filters of terms change of it. It is kept as that in
+/// ownShares(), light falls back to `noisy`; `change` is what filters of terms change of it. The outcome is kept in
 /// `reflected` where somebody asks for it.
 #include "pass/addReflected.h"
 #ifdef PASS_addReflected

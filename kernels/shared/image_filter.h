@@ -1,4 +1,4 @@
-// Filters of the finished image (kernels/filter/image.cl): how far they reach, of which windows follow.
+// Filters of images (kernels/filter/image.cl): how far they reach, of which windows follow.
 #ifndef WEDGE_SHARED_IMAGE_FILTER_H
 #define WEDGE_SHARED_IMAGE_FILTER_H
 

@@ -62,7 +62,7 @@ WEDGE_INLINE void takeBandSamples(const Sampling* at, const Samples* s, BandSamp
             continue;
         }
         const size_t to = firstStored(at->pixel[receiver], slots, perPixel) + index;
-        const bool finite = storesFinite(vec3(s->value[0][lane], s->value[1][lane], s->value[2][lane]));
+        const bool finite = finiteVec(vec3(s->value[0][lane], s->value[1][lane], s->value[2][lane]));
         for (uint channel = 0u; channel < 3u; ++channel) {
             radiance[to + channel * perPixel] = s->value[channel][lane];
         }

@@ -3,6 +3,7 @@
 #ifndef WEDGE_STORED_SAMPLES_H
 #define WEDGE_STORED_SAMPLES_H
 
+#include "core/finite.h"
 #include "shared/sample_filter.h"
 #include "shared/vec.h"
 
@@ -24,13 +25,6 @@ WEDGE_FN Vec3 storedRadiance(const StoredSamples* s, uint pixel, uint index)
 {
     __global const float* first = s->radiance + firstStored(pixel, s->slots, s->perPixel) + index;
     return vec3(first[0], first[s->perPixel], first[2u * s->perPixel]);
-}
-
-/// By its bits: fast maths lets compilers take any number for finite.
-WEDGE_INLINE bool storesFinite(Vec3 v)
-{
-    const uint e = 0x7f800000u;
-    return (as_uint(v.x) & e) != e && (as_uint(v.y) & e) != e && (as_uint(v.z) & e) != e;
 }
 
 #endif

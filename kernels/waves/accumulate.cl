@@ -148,7 +148,7 @@ __kernel void accumulatePaths(PARAMETERS)
         t.texture = ambient != 0u ? white : loadVec(reflectance, size, r);
         t.weights = vecScale(vecMad(floors, t.texture, own), wave.published != 0u ? 1.0f : (float)n);
 #if HAS_bins
-        if (!storesFinite(e)) {
+        if (!finiteVec(e)) {
             addTexture(&sum, t.texture); // and nothing else: what is no number is left out
             lost += n;
             continue;

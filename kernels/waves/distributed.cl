@@ -374,15 +374,21 @@ __kernel void arrivingAtWaves(PARAMETERS)
 }
 #endif
 
-/// radiance += what filters change of what arrives, reflected.
+/// radiance += what filters change of what arrives, reflected: where texture and value are taken apart (beta) by the
+/// filtered texture.
 #include "pass/addChange.h"
 #ifdef PASS_addChange
 __kernel void addChange(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const Vec3 k = LOAD_texture(n, i);
-    if (luminance(k) > 0.0f) {
+    const Vec3 own = LOAD_texture(n, i);
+    if (luminance(own) > 0.0f) {
+#if HAS_filteredTexture
+        const Vec3 k = beta[i] >= 0.0f ? LOAD_filteredTexture(n, i) : own;
+#else
+        const Vec3 k = own;
+#endif
         const Vec3 more = vecMul(k, vecSub(loadVec(after, n, i), loadVec(before, n, i)));
         const Vec3 sum = vecAdd(loadVec(radiance, n, i), more);
         storeVec(radiance, n, i, vec3(fmax(sum.x, 0.0f), fmax(sum.y, 0.0f), fmax(sum.z, 0.0f)));
