@@ -93,7 +93,7 @@ TEST_CASE("samples of indirect light that are not finite are counted in the repo
         Arguments arguments = { "render", "room.toml", "--method", "mc", "--spp", "4", "--bounces", "12", "--size",
             "32x24", "--report", "r.json", "-o", "a.exr" };
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = place.run(arguments);
+        Outcome outcome = place.run(arguments);
         CAPTURE(outcome.err);
         REQUIRE(outcome.status == 0);
         return outcome;

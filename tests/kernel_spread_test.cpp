@@ -225,7 +225,8 @@ std::vector<double> widthsOf(
 {
     const double loss = std::abs(luminanceOf(of.excess.vector(from.x, from.y)));
     std::vector<double> out;
-    for (double width = sigma; width < widest; width *= 2) {
+    for (int doubled = 0; std::ldexp(sigma, doubled) < widest; ++doubled) {
+        const double width = std::ldexp(sigma, doubled);
         double own = 0, mean = 0;
         sharesOf(of, area, from, width, [&](glm::ivec2 to, double share) {
             own += to == from ? share : 0;

@@ -29,7 +29,8 @@ bool nearTo(double found, double expected) { return std::fabs(found - expected) 
 TEST_CASE("arrivingAtPixels, addTermChange: no number without the term; what changes is reflected, or shown on white")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } }) {
+        for (const glm::ivec2 size : { glm::ivec2(1, 1), glm::ivec2(37, 5) }) {
+            const int width = size.x, height = size.y;
             const Region region(width, height, { 0, 0, width, height }, render::PlaneLayout(width, height));
             std::mt19937 random(8);
             const auto colours = [&] {

@@ -156,7 +156,7 @@ std::optional<std::string> TableReader::text(const std::string& key)
 
 std::optional<std::string> TableReader::choice(const std::string& key, const std::vector<std::string>& choices)
 {
-    const std::optional<std::string> value = text(key);
+    std::optional<std::string> value = text(key);
     if (value && std::find(choices.begin(), choices.end(), *value) == choices.end())
         fail(key, "is unknown", fmt::format("'{}'", *value), fmt::format("use one of: {}", fmt::join(choices, ", ")));
     return value;
