@@ -202,6 +202,48 @@ void DistributedSamples::blur(graph::Handle<Radiance>& image)
         { pixels(), reads("lens", lens_, across), reads("in", rows, across), updates("out", image) });
 }
 
+void DistributedSamples::filterTerms(Blurs& own)
+{
+    if (filters()) {
+        f_.graph.only("filters", analysed(), [&] {
+            for (const std::unique_ptr<WaveTerm>& term : terms_) {
+                const FilteredTerm filtered = term->filtered(params());
+                if (term == terms_.front()) { // not before, for the memory's sake
+                    blurs(0.0f, own);
+                }
+                addFiltered(*term, filtered, own, sumOf(*term));
+            }
+            if (terms_.empty()) {
+                blurs(0.0f, own);
+            }
+        });
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        addOwn(*term, term->means, sumOf(*term), filters());
+        const auto unfiltered = [filters = filters(), state = state_](
+                                    const Run&) { return !filters || !state->analysed; };
+        if (isFiltered(f_.settings, term->target().name)) {
+            f_.graph.only(
+                "filters of terms", unfiltered, [&] { addTermFilters(*term, nullptr, nullptr, sumOf(*term)); });
+        }
+    }
+}
+
+void DistributedSamples::blurImages()
+{
+    Totals& t = f_.totals;
+    f_.graph.only("filter of the image", analysed(), [&] {
+        blur(t.beauty);
+        if (shape_.parts) {
+            blur(emission_);
+        }
+        if (shape_.apart) {
+            blur(t.direct.filtered);
+            blur(t.indirect.filtered);
+        }
+    });
+}
+
 void DistributedSamples::compose()
 {
     Totals& t = f_.totals;
@@ -226,29 +268,7 @@ void DistributedSamples::compose()
     if (shape_.layers) {
         f_.zero(own.lens, own.along); // they are shown, filtered or not
     }
-    if (filters()) {
-        f_.graph.only("filters", analysed(), [&] {
-            for (const std::unique_ptr<WaveTerm>& term : terms_) {
-                const FilteredTerm filtered = term->filtered(params());
-                if (term == terms_.front()) { // not before, for the memory's sake
-                    blurs(0.0f, own);
-                }
-                addFiltered(*term, filtered, own, sumOf(*term));
-            }
-            if (terms_.empty()) {
-                blurs(0.0f, own);
-            }
-        });
-    }
-    for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        addOwn(*term, term->means, sumOf(*term), filters());
-        const auto unfiltered = [filters = filters(), state = state_](
-                                    const Run&) { return !filters || !state->analysed; };
-        if (isFiltered(f_.settings, term->target().name)) {
-            f_.graph.only(
-                "filters of terms", unfiltered, [&] { addTermFilters(*term, nullptr, nullptr, sumOf(*term)); });
-        }
-    }
+    filterTerms(own);
     lens_ = own.lens;
     along_ = own.along;
     if (shape_.apart) {
@@ -259,19 +279,9 @@ void DistributedSamples::compose()
         emission_ =
             before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
     }
-    if (!filters() || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
-        return;
+    if (filters() && f_.settings.distributed.blur && camera_.apertureRadius > 0) {
+        blurImages();
     }
-    f_.graph.only("filter of the image", analysed(), [&] {
-        blur(t.beauty);
-        if (shape_.parts) {
-            blur(emission_);
-        }
-        if (shape_.apart) {
-            blur(t.direct.filtered);
-            blur(t.indirect.filtered);
-        }
-    });
 }
 
 void DistributedSamples::show(Outputs& to)

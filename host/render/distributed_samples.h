@@ -123,7 +123,11 @@ private:
     /// shown as they are.
     void addTermFilters(WaveTerm& term, const FilteredTerm* filtered, const graph::Handle<Texture>* filteredTexture,
         graph::Handle<Radiance>& radiance);
+    /// Adds terms to their sums, filtered where the frame is analysed. own: blurs of the pixels, which it declares.
+    void filterTerms(Blurs& own);
     void blur(graph::Handle<Radiance>& image);
+    /// The image, and its parts where these are apart, through the lens's filter.
+    void blurImages();
     graph::Handle<Radiance>& sumOf(WaveTerm& term);
 
     /// Declares them, for `samples` of a pixel; 0: those that it has, over what there is.
