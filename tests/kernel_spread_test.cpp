@@ -15,12 +15,14 @@ public:
         , excess_(frame_, "spreadExcess")
     {
         REQUIRE(excess_.has("parts") == parts);
+        REQUIRE(!sums_.has("width"));
     }
     const render::PlaneLayout& layout() const { return sums_.layout; }
 
     Gained operator()(const Lost& lost, const Area& area, float sigma, const Planes<float>& before)
     {
         setLoss(sums_, lost, area, { 0, 0, area.width, area.height }, sigma);
+        sums_.value("widest", sigma);
         sums_.plane("per", Planes<float>(layout(), 1, untouched));
         sums_.run();
         setLoss(excess_, lost, area, area.window, sigma);

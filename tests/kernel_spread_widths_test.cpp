@@ -6,13 +6,12 @@ using namespace wedge::test;
 
 namespace {
 
-/// The kernels of widths that grow, likewise.
+/// Both kernels where widths grow, the first over all pixels that the second reads.
 class GrowingSpread {
 public:
     explicit GrowingSpread(const device::Device& device, bool parts)
         : frame_(spreadFrame(device, parts, 12))
-        , widths_(frame_, "spreadWidths")
-        , blocks_(frame_, "spreadBlocks")
+        , widths_(frame_, "spreadSums")
         , excess_(frame_, "spreadExcess")
     {
         REQUIRE(excess_.has("parts") == parts);
@@ -31,28 +30,17 @@ public:
         widths_.plane("per", Planes<float>(layout(), 1, untouched));
         widths_.plane("width", Planes<float>(layout(), 1, untouched));
         widths_.run();
-        auto p = paramsOf(layout());
-        p.width = static_cast<std::uint32_t>(area.width);
-        p.height = static_cast<std::uint32_t>(area.height);
-        render::setRectangle(p, whole);
-        blocks_.value("p", p);
-        blocks_.window(whole);
-        blocks_.plane("width", width());
-        blocks_.plane("widths", Planes<float>(layout(), 1, untouched));
-        blocks_.run();
         setLoss(excess_, lost, area, area.window, widest);
         excess_.plane("per", per());
         excess_.plane("width", width());
-        excess_.plane("widths", largest());
         return gainedBy(excess_, before);
     }
     Planes<float> per() const { return widths_.pixels<float>("per"); }
     Planes<float> width() const { return widths_.pixels<float>("width"); }
-    Planes<float> largest() const { return blocks_.pixels<float>("widths"); }
 
 private:
     DeclaredFrame frame_;
-    PassBench widths_, blocks_, excess_;
+    PassBench widths_, excess_;
 };
 
 template <class Test>
@@ -93,7 +81,7 @@ std::vector<double> widthsOf(
 
 } // namespace
 
-TEST_CASE("spreadWidths: the narrowest width at which a pixel gets back no more than a tenth of the mean around it")
+TEST_CASE("spreadSums: the narrowest width at which a pixel gets back no more than a tenth of the mean around it")
 {
     std::mt19937 random(4);
     onEveryGrowingSpread([&](GrowingSpread& spread) {
@@ -128,7 +116,7 @@ TEST_CASE("spreadWidths: the narrowest width at which a pixel gets back no more 
     });
 }
 
-TEST_CASE("spreadWidths, spreadExcess: no object gains or loses light by widths that differ, a crop is the whole's")
+TEST_CASE("spreadSums, spreadExcess: no object gains or loses light by widths that differ, a crop is the whole's")
 {
     std::mt19937 random(5);
     onEveryGrowingSpread([&](GrowingSpread& spread) {
@@ -143,7 +131,7 @@ TEST_CASE("spreadWidths, spreadExcess: no object gains or loses light by widths 
     });
 }
 
-TEST_CASE("spreadWidths, spreadExcess: of twice the light twice as much, of light that is missing as wide")
+TEST_CASE("spreadSums, spreadExcess: of twice the light twice as much, of light that is missing as wide")
 {
     std::mt19937 random(6);
     onEveryGrowingSpread([&](GrowingSpread& spread) {
@@ -165,24 +153,5 @@ TEST_CASE("spreadWidths, spreadExcess: of twice the light twice as much, of ligh
         scale(lost.excess, -1);
         spread(lost, area, 0.5f, 4, before);
         CHECK(spread.width().values == width);
-    });
-}
-
-TEST_CASE("spreadBlocks: the largest width of the pixels right of and below a pixel, of eight by eight")
-{
-    std::mt19937 random(7);
-    onEveryGrowingSpread([&](GrowingSpread& spread) {
-        for (const Area& area : areas()) {
-            const Lost lost = someLoss(spread.layout(), area, random);
-            spread(
-                lost, area, 0.5f, 4, planesOf(spread.layout(), someNumbers(random, 4 * spread.layout().size, 0, 10)));
-            const Planes<float> width = spread.width(), largest = spread.largest();
-            everyPixelOf({ 0, 0, area.width, area.height }, [&](int x, int y) {
-                float expected = 0;
-                everyPixelOf({ x, y, std::min(x + 8, area.width), std::min(y + 8, area.height) },
-                    [&](int u, int v) { expected = std::max(expected, width.at(u, v)); });
-                REQUIRE(largest.at(x, y) == expected);
-            });
-        }
     });
 }

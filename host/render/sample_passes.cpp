@@ -50,30 +50,21 @@ void spread(FrameBuilder& frame, float sigma, float widest, LostLight lost)
     const bool grows = last > sigma;
     const graph::Reach far = graph::around(static_cast<int>(std::ceil(WEDGE_SPREAD_CUT * last)));
     auto per = frame.graph.plane<Share>("shares of rejected light", graph::floats);
+    auto width = frame.graph.plane<Pixels>("widths of rejected light", graph::floats);
     const auto surface = [&](float pixels) {
         return Arguments { frame.rectangle(frame.analysisParams()), value("sigma", pixels),
             reads("objectId", frame.surfaces.objectId, far), reads("normal", frame.surfaces.normal, far),
             reads("taken", lost.taken, far) };
     };
-    Arguments widths { graph::absent("width", graph::floats), graph::absent("widths", graph::floats) };
-    if (grows) {
-        auto width = frame.graph.plane<Pixels>("widths of rejected light", graph::floats);
-        auto largest = frame.graph.plane<Pixels>("largest widths of rejected light", graph::floats);
-        frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadWidths" },
-            joined(surface(sigma),
-                Arguments { value("widest", last), reads("excess", lost.excess), reads("sums", lost.sums, far),
-                    writes("per", per), writes("width", width) }));
-        frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadBlocks" },
-            { frame.rectangle(frame.analysisParams()), reads("width", width, graph::around(WEDGE_SPREAD_BLOCK - 1)),
-                writes("widths", largest) });
-        widths = { reads("width", width, far), reads("widths", largest, far) };
-    } else {
-        frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
-            joined(surface(sigma), Arguments { reads("excess", lost.excess), writes("per", per) }));
-    }
-    frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
-        joined(surface(last), widths,
-            Arguments { reads("excess", lost.excess, far), reads("per", per, far), updates("sums", lost.sums),
+    frame.pixels(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
+        joined(surface(sigma),
+            Arguments { value("widest", last), reads("excess", lost.excess),
+                grows ? reads("sums", lost.sums, far) : graph::absent("sums", graph::floats), writes("per", per),
+                grows ? writes("width", width) : graph::absent("width", graph::floats) }));
+    frame.blocks(samplePass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
+        joined(surface(last),
+            Arguments { grows ? reads("width", width, far) : graph::absent("width", graph::floats),
+                reads("excess", lost.excess, far), reads("per", per, far), updates("sums", lost.sums),
                 lost.parts.graph != 0 ? updates("parts", lost.parts) : graph::absent("parts", packedColours) }));
 }
 

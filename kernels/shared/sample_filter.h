@@ -22,8 +22,6 @@
 /// Where their width grows with what is left out, it does until a pixel gets no more back than this share of the mean
 /// around it.
 #define WEDGE_SPREAD_SHARE 0.1f
-/// Edge in pixels of blocks whose largest width is known.
-#define WEDGE_SPREAD_BLOCK 8
 /// Of the brightness that samples have before any filter: in each direction one pixel of so many is looked at, with so
 /// many samples.
 #define WEDGE_PROBE_STEP 4
