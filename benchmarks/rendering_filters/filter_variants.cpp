@@ -16,11 +16,11 @@ struct TableRow {
 /// are judged and not pixels.
 const std::vector<TableRow>& measuredVariants()
 {
-    static const std::vector<TableRow> all { { densityVariant }, { "path-density:k=50" }, { "path-density:k=200", 64 },
-        { "path-density:spread=0" }, { publishedVariant, 64 }, { publishedRgbVariant, 64 },
-        { "path-density:k=200,approximate=1", 64 }, { "trim:share=0.01" }, { "trim:share=0.1" }, { "trim:share=0.5" },
-        { "clamp" }, { "clamp:spread=1,widest=8" }, { gmonVariant }, { reweightVariant }, { "mad-median" },
-        { "median" } };
+    static const std::vector<TableRow> all { { densityVariant }, { "path-density:k=50", 64 },
+        { "path-density:k=200", 64 }, { "path-density:spread=0" }, { publishedVariant, 64 },
+        { publishedRgbVariant, 64 }, { "path-density:k=200,approximate=1", 64 }, { "trim:share=0.01" },
+        { "trim:share=0.1" }, { "trim:share=0.5" }, { "clamp" }, { "clamp:spread=1,widest=8" }, { gmonVariant },
+        { reweightVariant }, { "mad-median" }, { "median" } };
     return all;
 }
 
