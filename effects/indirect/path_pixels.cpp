@@ -65,8 +65,8 @@ PixelTerm::CountsFrom PathPixels::countsFrom() const
 std::uint32_t PathPixels::mostSamples() const
 {
     const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
-    // Memory has room for as many of every pixel of a band.
-    constexpr std::int64_t mostOfStored = 4;
+    // Memory has room for as many of every pixel of a band. With four times the mean caustics err by a tenth more.
+    constexpr std::int64_t mostOfStored = 8;
     const bool stored = sampleFilter().filter != nullptr;
     return static_cast<std::uint32_t>(stored ? std::min<std::int64_t>(most, mostOfStored * s_.spp) : most);
 }
