@@ -5,6 +5,7 @@
 #include "effects/environment/environment.h"
 #include "effects/indirect/indirect_light.h"
 #include "effects/mirrors/mirrors.h"
+#include "effects/shadow_lights/shadow_lights.h"
 
 namespace wedge::render {
 namespace {
@@ -13,6 +14,7 @@ const Registration ofAreaLights(areaLights());
 const Registration ofDeltaLights(deltaLights());
 const Registration ofEmitters(emitters());
 const Registration ofEnvironment(environment());
+const Registration ofShadowLights(shadowLights());
 const Registration ofIndirectLight(indirectLight());
 const Registration ofMirrors(mirrors());
 

@@ -71,6 +71,8 @@ std::vector<Settings> manySettings()
     });
     add(0, [](Settings& s) { s.environment.widths = render::EnvironmentWidths::Corrected; });
     add(1, [](Settings& s) { s.environment.sampling = render::EnvironmentSampling::Precomputed; });
+    add(0, [](Settings& s) { s.environment.shadows.shadows = render::Shadows::Subtractive; });
+    add(1, [](Settings& s) { s.environment.shadows.shadows = render::Shadows::Ratio; });
     add(3, [](Settings& s) {
         s.maaf = render::Maaf::Refitted;
         s.components = 3;

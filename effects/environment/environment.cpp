@@ -26,7 +26,9 @@ public:
 
     std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || scene.picture() == nullptr) {
+        // Lights that stand for the map bring this light in their place (effects/shadow_lights).
+        if (settings.integrator != Integrator::Path || scene.picture() == nullptr
+            || settings.environment.shadows.shadows != Shadows::Sampled) {
             return {};
         }
         std::vector<Term> terms { pathTerm(Component::Environment, "Environment", settings) };

@@ -270,6 +270,30 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
         o.environmentWidths);
 }
 
+void addShadowOptions(CLI::App& parser, RenderOptions& o)
+{
+    addChoice(parser, howGroup, "--shadows", shadows,
+        "Direct light of an environment's map where the camera looks: sampled, the default; or by directional lights "
+        "that "
+        "stand for it: what they bring, all of the map's light less what their shadows take, or times the share that "
+        "these leave",
+        o.shadows);
+    addValue(parser, howGroup, "--shadow-lights", "N", "With --shadows: how many lights. Default: 40",
+        [&o](const std::string& text) {
+            o.shadowLights = static_cast<int>(wholeNumber("--shadow-lights", text, 1, render::mostShadowLights));
+        });
+    addChoice(parser, howGroup, "--shadow-complete", wholeLights,
+        "With --shadows subtractive or ratio, all of the map's light: by harmonics and means of the map, the default, "
+        "or "
+        "what the lights bring without shadows",
+        o.shadowComplete);
+    addValue(parser, howGroup, "--shadow-clamp", "on|off",
+        "With --shadows subtractive: whether light that is below 0 becomes 0. Default: on",
+        [&o](const std::string& text) {
+            o.shadowClamp = choice("--shadow-clamp", text, { "on", "off" }) == 0;
+        });
+}
+
 void addEffectOptions(CLI::App& parser, RenderOptions& o)
 {
     for (const auto& effect : render::effects()) {
@@ -305,6 +329,7 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     addCameraOptions(parser, options);
     addEffectOptions(parser, options);
     addMethodOptions(parser, options);
+    addShadowOptions(parser, options);
     addProgressiveOptions(parser, options);
     addDeviceOptions(parser, options);
     addAblationOptions(parser, options);

@@ -76,6 +76,10 @@ struct RenderOptions {
     std::optional<render::LightSampling> lightSampling;
     std::optional<render::EnvironmentSampling> environmentSampling;
     std::optional<render::EnvironmentWidths> environmentWidths;
+    std::optional<render::Shadows> shadows;
+    std::optional<int> shadowLights;
+    std::optional<render::WholeLight> shadowComplete;
+    std::optional<bool> shadowClamp;
 };
 
 /// Adds the options to the subcommand's parser; parsing fills `options`, which must outlive it.

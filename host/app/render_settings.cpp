@@ -1,6 +1,7 @@
 #include "host/app/render_settings.h"
 
 #include "effects/area_lights/maaf.h"
+#include "effects/shadow_lights/map_lights.h"
 #include "filters/image/filter_section.h"
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
@@ -131,6 +132,42 @@ render::Settings preset(const RenderOptions& o, const render::PreparedScene& sce
     return s;
 }
 
+/// The option that chooses lights for a map, as it was given.
+std::string shadowsOption(const RenderOptions& o)
+{
+    return "--shadows " + render::shadowsName(o.shadows.value_or(render::Shadows::Sampled));
+}
+
+/// One of the options that go with it.
+std::string shadowOfThem(const RenderOptions& o)
+{
+    return o.shadowLights ? "--shadow-lights" : o.shadowComplete ? "--shadow-complete" : "--shadow-clamp";
+}
+
+/// Lights that stand for a map, and what goes with them alone.
+void applyShadows(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
+{
+    render::ShadowSettings& to = s.environment.shadows;
+    to.shadows = o.shadows.value_or(render::Shadows::Sampled);
+    const std::string option = shadowsOption(o);
+    const bool sampled = to.shadows == render::Shadows::Sampled;
+    refuse(!sampled && scene.picture() == nullptr, "without an environment", option, "add [environment] to the scene");
+    const std::string without = o.shadows ? "with " + option : "without --shadows";
+    refuse(sampled && o.shadowLights, without, fmt::format("--shadow-lights {}", o.shadowLights.value_or(0)),
+        "add --shadows ratio");
+    refuse(o.shadowComplete && (sampled || to.shadows == render::Shadows::Additive), without, "--shadow-complete",
+        "add --shadows ratio");
+    refuse(o.shadowClamp && to.shadows != render::Shadows::Subtractive, without, "--shadow-clamp",
+        "add --shadows subtractive");
+    refuse(!sampled && o.environmentWidths, "with " + option, "--environment-widths", "leave out --shadows");
+    to.lights = o.shadowLights.value_or(to.lights);
+    to.whole = o.shadowComplete.value_or(to.whole);
+    to.clamp = o.shadowClamp.value_or(to.clamp);
+    if (!sampled) {
+        render::requirePlaces(*scene.picture(), static_cast<std::size_t>(to.lights));
+    }
+}
+
 void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
 {
     refuse(o.ambientDistance.has_value(), "with integrator path",
@@ -157,6 +194,7 @@ void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, rend
             "add --light-sampling both");
         s.environment.sampling = *o.environmentSampling;
     }
+    applyShadows(o, scene, s);
 }
 
 void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
@@ -168,6 +206,8 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
     refuse(o.lightSampling.has_value(), "with integrator ao", "--light-sampling", remedy);
     refuse(o.environmentSampling.has_value(), "with integrator ao", "--environment-sampling", remedy);
     refuse(o.falloff.has_value(), "with integrator ao", "--falloff", remedy);
+    refuse(o.shadows.has_value(), "with integrator ao", shadowsOption(o), remedy);
+    refuse(o.shadowLights || o.shadowComplete || o.shadowClamp, "with integrator ao", shadowOfThem(o), remedy);
     s.indirect.ambientDistance = o.ambientDistance ? *o.ambientDistance : file.ambientDistance.value_or(0.0f);
 }
 

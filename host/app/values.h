@@ -38,14 +38,16 @@ inline const std::vector<std::string> methods = { "mc", "aaf", "maaf" };
 /// And how many components filters of maaf may have.
 inline const std::vector<std::string> componentCounts = { "3", "5", "7" };
 
-/// The names of render::Maaf, render::Integrator, render::PixelFilter, render::LightSampling, render::Temporal and
-/// render::EnvironmentWidths, in the order of their values.
+/// The names of render::Maaf, render::Integrator, render::PixelFilter, render::LightSampling, render::Temporal,
+/// render::EnvironmentWidths, render::Shadows and render::WholeLight, in the order of their values.
 inline const std::vector<std::string> maafs = { "printed", "refitted", "two-slope" };
 inline const std::vector<std::string> integrators = { "path", "ao" };
 inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
 inline const std::vector<std::string> temporals = { "off", "on", "published" };
 inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "flt", "corrected" };
+inline const std::vector<std::string> shadows = { "sampled", "additive", "subtractive", "ratio" };
+inline const std::vector<std::string> wholeLights = { "prefiltered", "lights" };
 
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);

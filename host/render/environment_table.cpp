@@ -82,12 +82,21 @@ Harmonics harmonicsAt(glm::dvec3 d)
     return { 1.0, x, y, z, x * y, y * z, z * x, 3.0 * z * z - 1.0, x * x - y * y };
 }
 
-/// Of each channel the integral of its radiance times harmonicsAt().
+/// Places along each axis at which a picture is looked at: few texels in several each.
+struct ProjectedGrid {
+    int across, down;
+};
+
+ProjectedGrid projectedGrid(const EnvironmentPicture& picture)
+{
+    const auto times = [](int texels, int least) { return texels > 0 ? std::max(1, least / texels) : 1; };
+    return { picture.width * times(picture.width, 64), picture.height * times(picture.height, 32) };
+}
+
+/// Of each channel the integral of its radiance times harmonicsAt(), over projectedSolidAngle().
 std::array<Harmonics, 3> projected(const EnvironmentPicture& picture)
 {
-    // Few texels are looked at in several places each.
-    const auto times = [](int texels, int least) { return texels > 0 ? std::max(1, least / texels) : 1; };
-    const int across = picture.width * times(picture.width, 64), down = picture.height * times(picture.height, 32);
+    const auto [across, down] = projectedGrid(picture);
     std::vector<glm::dvec3> horizon(
         static_cast<std::size_t>(across)); // directions of columns, at a right angle to `up`
     for (std::size_t x = 0; x < horizon.size(); ++x) {
@@ -114,10 +123,23 @@ std::array<Harmonics, 3> projected(const EnvironmentPicture& picture)
     return sums;
 }
 
+/// Steradians that each of the places stands for that projected() adds up, over the sine of its angle from `up`.
+double projectedSolidAngle(const EnvironmentPicture& picture)
+{
+    const ProjectedGrid grid = projectedGrid(picture);
+    return 2.0 * std::acos(-1.0) / grid.across * std::acos(-1.0) / grid.down;
+}
+
+/// Numbers that are looked up by a normal, and the largest sum that they were divided by.
+struct UnshadowedHarmonics {
+    std::array<float, WEDGE_HARMONICS> numbers;
+    double most;
+};
+
 /// Irradiance of surfaces of each normal n is the sum of these numbers times harmonicsAt(n), over the largest that any
 /// has (Ramamoorthi and Hanrahan, 2001: what a clamped cosine leaves of each order is pi, 2 pi / 3 and pi / 4).
 /// Without light: 1. sums: projected(), of a channel
-std::array<float, WEDGE_HARMONICS> unshadowedHarmonics(Harmonics sums)
+UnshadowedHarmonics unshadowedHarmonics(Harmonics sums)
 {
     // Squared constants of the harmonics times what the cosine leaves, over those of the first.
     constexpr Harmonics factors { 1.0, 2.0, 2.0, 2.0, 3.75, 3.75, 3.75, 0.3125, 0.9375 };
@@ -132,9 +154,9 @@ std::array<float, WEDGE_HARMONICS> unshadowedHarmonics(Harmonics sums)
         const Harmonics at = harmonicsAt({ r * std::cos(turn), r * std::sin(turn), z });
         most = std::max(most, std::inner_product(at.begin(), at.end(), sums.begin(), 0.0));
     }
-    std::array<float, WEDGE_HARMONICS> out { 1.0f };
-    for (std::size_t i = 0; most > 0 && i < out.size(); ++i) {
-        out[i] = static_cast<float>(sums[i] / most);
+    UnshadowedHarmonics out { { 1.0f }, most };
+    for (std::size_t i = 0; most > 0 && i < out.numbers.size(); ++i) {
+        out.numbers[i] = static_cast<float>(sums[i] / most);
     }
     return out;
 }
@@ -257,7 +279,10 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::span<float> to = all.subspan(
             shared::environmentHarmonics(out.map.width, out.map.height) + WEDGE_HARMONICS * channel, WEDGE_HARMONICS);
-        std::ranges::copy(unshadowedHarmonics(sums[channel]), to.begin());
+        const UnshadowedHarmonics harmonics = unshadowedHarmonics(sums[channel]);
+        std::ranges::copy(harmonics.numbers, to.begin());
+        // The first of them is a constant, whose square is 1 / (4 pi), times what the cosine leaves, pi.
+        out.mostIrradiance[static_cast<int>(channel)] = 0.25 * projectedSolidAngle(*picture) * harmonics.most;
     }
     averageLevels(*picture, all.subspan(shared::environmentAverages(out.map.width, out.map.height)));
     if (!picture->shown.empty()) { // no span is used from here on

@@ -34,6 +34,8 @@ struct EnvironmentTable {
     shared::EnvironmentMap map {}; ///< of no texels without a picture
     std::vector<float> numbers; ///< empty likewise
     double irradiance = 0; ///< luminance, over all directions, W/m^2
+    /// The largest irradiance that any normal has by the harmonics, R G B, W/m^2; 0 of channels without light.
+    glm::dvec3 mostIrradiance { 0 };
 };
 
 /// Directions are chosen by how far they are brighter than the mean, for reflected directions find the rest as well

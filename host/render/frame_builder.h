@@ -98,10 +98,11 @@ struct Sum {
     graph::Handle<Radiance> change; ///< by filters that are on its terms; where there are any
 };
 /// What a frame counts: of all terms, of indirect light, of all rays but the camera's, and of those of paths; and where
-/// there is a filter of samples, those of indirect light that it leaves out because they are not finite.
+/// there is a filter of samples, those of indirect light that it leaves out because they are not finite. Of tallies
+/// also pixels whose light was below 0, where shadows are subtracted.
 template <class Kind>
 struct Counted {
-    graph::Handle<Kind> samples, indirectSamples, rays, pathRays, notFinite;
+    graph::Handle<Kind> samples, indirectSamples, rays, pathRays, notFinite, clamped;
 };
 struct Totals : Counted<Count> {
     Sum direct, indirect;

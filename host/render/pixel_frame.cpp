@@ -58,6 +58,9 @@ void PixelFrame::show()
     if (t.tallies.notFinite.graph != 0) {
         outputs_.add("notFiniteTally", t.tallies.notFinite);
     }
+    if (t.tallies.clamped.graph != 0) {
+        outputs_.add("clampedTally", t.tallies.clamped);
+    }
     if (keepsLayers_ || std::ranges::any_of(terms_, &Term::ofLobes)) {
         outputs_.add("specular", s.specular); // pixels that have some are sampled for more terms
     }
@@ -103,7 +106,7 @@ void PixelFrame::primary(bool lit)
     t.rays = graph_.plane<Count>("rays", graph::counts);
     const auto tally = [this](const char* name) { return graph_.list<Tally>(name, tallySums, WEDGE_TALLY_STRIPES); };
     t.tallies = { tally("tally of samples"), tally("tally of indirect samples"), tally("tally of rays"),
-        tally("tally of path rays"), {} };
+        tally("tally of path rays"), {}, {} };
     if (sampleFilterOf(settings_).filter != nullptr) {
         t.tallies.notFinite = tally("tally of samples not finite");
         f_.zero(t.tallies.notFinite);

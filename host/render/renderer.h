@@ -61,6 +61,8 @@ struct FrameStatistics {
     std::uint64_t primaryRays = 0, shadowRays = 0, indirectRays = 0;
     /// Samples of indirect light that are left out because they are not finite; of frames with a filter of samples.
     std::optional<std::uint64_t> notFiniteSamples;
+    /// Pixels whose light was below 0 before it was clamped; of frames that subtract shadows and clamp.
+    std::optional<std::uint64_t> clampedPixels;
     std::uint64_t memoryBytes = 0;
 
     /// Analysis, filter and composite as a fraction of the device's time.

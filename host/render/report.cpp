@@ -94,6 +94,9 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
     if (frame.notFiniteSamples) {
         out["samples"] = { { "not_finite", *frame.notFiniteSamples } };
     }
+    if (frame.clampedPixels) {
+        out["shadows"] = { { "clamped_pixels", *frame.clampedPixels } };
+    }
     out.update(Json { { "passes", passes }, { "memory_bytes", frame.memoryBytes } });
     return out;
 }

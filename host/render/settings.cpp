@@ -105,6 +105,20 @@ void validateCounts(const Settings& s, bool distributed)
         fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
 }
 
+/// Of lights that stand for a map.
+void validateShadows(const Settings& s, bool distributed)
+{
+    const ShadowSettings& shadows = s.environment.shadows;
+    requireRange(shadows.lights >= 1 && shadows.lights <= mostShadowLights, "lights for the environment's shadows",
+        fmt::format("{}", shadows.lights), fmt::format("a whole number from 1 to {}", mostShadowLights));
+    if (shadows.shadows != Shadows::Sampled && distributed) {
+        throw UsageError("shadows of lights are of frames through a pinhole where nothing moves, neither antialiased "
+                         "nor progressive",
+            "--shadows " + shadowsName(shadows.shadows),
+            "leave it out, or leave out --antialias, --progressive, the lens and what moves");
+    }
+}
+
 /// Names of the filters of samples that frames of several receivers a pixel can have: "a, b or c".
 std::string filtersOfBins()
 {
@@ -234,7 +248,8 @@ Settings asPublished(std::optional<float> mu)
         .lobeWidening = 0.0f,
         .firstShare = 1.0f,
         .leastShare = 0.5f,
-        .widths = EnvironmentWidths::Curvature };
+        .widths = EnvironmentWidths::Curvature,
+        .shadows = {} };
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
@@ -294,6 +309,7 @@ void validate(const Settings& s, bool distributed)
         text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
     validateSampleFilter(s, distributed);
+    validateShadows(s, distributed);
     requireRange(
         !s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
     requireRange(!s.progressive || s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp,

@@ -140,6 +140,30 @@ enum class EnvironmentWidths {
     Corrected, ///< as Curvature, with other constants, of smoothed occluders, and bounded in pixels
 };
 
+/// How direct light from beyond the scene is found where the camera looks; docs/shadow-lights.md.
+enum class Shadows {
+    Sampled, ///< by samples of the map
+    Additive, ///< of directional lights that stand for the map, what they bring
+    Subtractive, ///< the map's whole light, less what shadows take of those lights
+    Ratio, ///< the map's whole light times the share that shadows leave of those lights
+};
+
+/// What counts as a map's whole light, of which shadows take some.
+enum class WholeLight {
+    Prefiltered, ///< nine harmonics, and of lobes means over the map (kernels/light/unshadowed_environment.h)
+    Lights, ///< what the lights bring without shadows
+};
+
+/// Direct light from beyond the scene by lights that stand for its map; docs/shadow-lights.md.
+struct ShadowSettings {
+    Shadows shadows = Shadows::Sampled;
+    int lights = 40;
+    WholeLight whole = WholeLight::Prefiltered;
+    bool clamp = true; ///< of Subtractive: no light is below 0
+
+    bool operator==(const ShadowSettings&) const = default;
+};
+
 /// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.
 struct EnvironmentSettings {
     EnvironmentSampling sampling = EnvironmentSampling::Map;
@@ -153,6 +177,7 @@ struct EnvironmentSettings {
         0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with; 1: as many as of paths
     float leastShare = 0.25f; ///< of the mean count, that every such pixel takes
     EnvironmentWidths widths = EnvironmentWidths::Penumbrae;
+    ShadowSettings shadows;
 
     bool operator==(const EnvironmentSettings&) const = default;
 };
@@ -306,6 +331,9 @@ constexpr int mostDistributedSpp = 2048;
 /// Most samples of one pixel of them: where many of a tile want so many, they take less.
 constexpr int mostPixelSpp = 16384;
 
+/// Most lights that a map is taken for.
+constexpr int mostShadowLights = 4096;
+
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;
 constexpr int mostSurfaces = 1 << 16; ///< of Settings::maxSurfaces
@@ -313,6 +341,9 @@ constexpr int mostSurfaces = 1 << 16; ///< of Settings::maxSurfaces
 /// Fewest samples a pixel that method aaf takes: those of the first pass, of progressive frames of both halves'.
 /// distributed: whether pixels have several receivers, see isDistributed().
 int leastSpp(const Settings& settings, bool distributed);
+
+/// "ratio" and the like.
+std::string shadowsName(Shadows shadows);
 
 /// Throws UsageError if a value is out of its range. distributed: as above.
 void validate(const Settings& settings, bool distributed);

@@ -68,7 +68,28 @@ void describeEnvironment(const EnvironmentSettings& e, Descriptions& out)
             { "environmentWidths", widths[static_cast<int>(e.widths)] } });
 }
 
+void describeShadows(const ShadowSettings& s, Descriptions& out)
+{
+    if (s.shadows == Shadows::Sampled) {
+        return;
+    }
+    out.emplace_back("shadows", shadowsName(s.shadows));
+    out.emplace_back("shadowLights", fmt::format("{}", s.lights));
+    if (s.shadows != Shadows::Additive) {
+        out.emplace_back("shadowComplete", s.whole == WholeLight::Prefiltered ? "prefiltered" : "lights");
+    }
+    if (s.shadows == Shadows::Subtractive) {
+        out.emplace_back("shadowClamp", s.clamp ? "on" : "off");
+    }
+}
+
 } // namespace
+
+std::string shadowsName(Shadows shadows)
+{
+    constexpr const char* names[] = { "sampled", "additive", "subtractive", "ratio" };
+    return names[static_cast<int>(shadows)];
+}
 
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
 
@@ -95,6 +116,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "environmentSampling", s.environment.sampling == EnvironmentSampling::Map ? "map" : "precomputed" },
         { "progressive", s.progressive ? "true" : "false" },
     };
+    if (s.integrator == Integrator::Path) {
+        describeShadows(s.environment.shadows, out);
+    }
     if (s.maxSurfaces != Settings().maxSurfaces) {
         out.emplace_back("maxSurfaces", number(s.maxSurfaces));
     }

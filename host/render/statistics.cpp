@@ -68,6 +68,9 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     if (frame_->has("notFiniteTally")) {
         statistics.notFiniteSamples = sumOf("notFiniteTally");
     }
+    if (frame_->has("clampedTally")) {
+        statistics.clampedPixels = sumOf("clampedTally");
+    }
     queue_.takeRecords();
 }
 

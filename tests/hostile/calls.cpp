@@ -18,7 +18,8 @@ const std::vector<std::string> renderOptions = { "--output", "-o", "--size", "--
     "--view", "--reference", "--report", "--integrator", "--bounces", "--ao-distance", "--aperture", "--focus",
     "--method", "--spp", "--max-spp", "--mu", "--seed", "--device", "--traversal", "--bvh", "--time-limit",
     "--memory-limit", "--kernel-dir", "--target-error", "--sampling", "--filter", "--filter-width", "--falloff",
-    "--sampler", "--counts", "--light-sampling", "--environment-sampling", "--environment-widths" };
+    "--sampler", "--counts", "--light-sampling", "--environment-sampling", "--environment-widths", "--shadows",
+    "--shadow-lights", "--shadow-complete", "--shadow-clamp" };
 
 /// Options without a value, or with the next option in its place.
 Rows missingValues()

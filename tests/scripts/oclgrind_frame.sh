@@ -118,6 +118,8 @@ check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
 check sky_precomputed "$scenes/sky.toml" --traversal wide --size 9x5 --method mc --spp 2 --environment-sampling precomputed
 check sky_published "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --as-published
 check sky_corrected "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16 --environment-widths corrected
+check sky_lights "$scenes/sky.toml" --traversal wide --size 9x5 --method mc --spp 1 --shadows ratio --shadow-lights 5
+check sky_lights_scalar "$scenes/sky.toml" --traversal scalar --size 7x5 --method aaf --spp 16 --shadows subtractive --shadow-lights 5
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 # Microfacets, normal maps and heights, and cut-outs.
 cat >"$work/bumps.toml" <<END

@@ -1,0 +1,401 @@
+// shadow_lights.cl alone: what lights bring with shadows and without against the host's traversal and sums in double,
+// and what that makes of a map's whole light.
+#include "bvh/host_traverse.h"
+#include "effects/shadow_lights/map_lights.h"
+#include "kernels/shared/bsdf.h"
+#include "kernels/shared/shadow_lights.h"
+#include "tests/environment_support.h"
+#include "tests/pass_bench.h"
+
+#include <limits>
+#include <numbers>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 45, height = 31;
+constexpr std::uint32_t count = 14;
+
+scene::Scene under(scene::SpecularModel model, float exponent)
+{
+    scene::Scene scene = smallScene();
+    scene.areaLights.clear();
+    scene.materials[0].specular = { 0.1f, 0.2f, 0.3f };
+    scene.materials[0].specularModel = model;
+    scene.materials[0].exponent = exponent;
+    scene.materials[0].roughness = 0.4f;
+    render::setEnvironment(scene, spotted());
+    return scene;
+}
+
+render::Settings settings(render::Shadows shadows, render::WholeLight whole = render::WholeLight::Prefiltered)
+{
+    render::Settings s = sized(render::monteCarlo(4), width, height);
+    s.environment.shadows = { shadows, static_cast<int>(count), whole, true };
+    return s;
+}
+
+std::vector<float> listOf(const std::vector<render::MapLight>& lights)
+{
+    std::vector<float> out;
+    for (const render::MapLight& light : lights)
+        for (const glm::vec3& v : { light.towards, light.irradiance })
+            out.insert(out.end(), { v.x, v.y, v.z });
+    return out;
+}
+
+/// Lobes in closed form, 1/sr, of reflection laws as docs/materials.md has them; GGX by the shared maths.
+double lobe(shared::Gloss gloss, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l)
+{
+    const double m = gloss.exponent, pi = std::numbers::pi;
+    if (gloss.kind == WEDGE_PHONG) {
+        const double c = 2 * glm::dot(n, v) * glm::dot(n, l) - glm::dot(v, l);
+        return (m + 2) / (2 * pi) * std::pow(std::max(c, 0.0), m);
+    }
+    const double c = glm::dot(n, glm::normalize(v + l));
+    return (m + 2) * (m + 4) / (8 * pi * (std::exp2(-0.5 * m) + m)) * std::pow(std::max(c, 0.0), m);
+}
+
+/// As wide at least as the lights are apart.
+shared::Gloss widened(shared::Gloss gloss)
+{
+    const float spacing = static_cast<float>(count / (4 * std::numbers::pi));
+    gloss.exponent = std::min(gloss.exponent, gloss.kind == WEDGE_PHONG ? spacing : 4 * spacing);
+    return gloss;
+}
+
+/// A pass after its primary rays, with the lights of the scene's map.
+struct Traced {
+    Traced(DeclaredFrame& frame, const std::vector<render::MapLight>& lights)
+        : primary(frame, "primary")
+        , pass(frame, "shadowLights")
+    {
+        primary.run();
+        for (const char* name : { "position", "normal", "origin" })
+            pass.plane(name, primary.read<float>(name));
+        for (const char* name : { "geometric", "objectId", "gloss" })
+            pass.plane(name, primary.read<std::uint32_t>(name));
+        pass.plane("lights", listOf(lights));
+    }
+    void upTo(std::uint32_t last)
+    {
+        pass.value("lastSample", last);
+        pass.run();
+    }
+    PassBench primary, pass;
+};
+
+void compare(const device::Device& device, const scene::Scene& scene)
+{
+    DeclaredFrame frame(device, scene, settings(render::Shadows::Ratio));
+    const std::vector<render::MapLight> lights = render::mapLights(*frame.scene().picture(), count);
+    Traced traced(frame, lights);
+    const PassBench& bench = traced.pass;
+    traced.upTo(count);
+    const auto matt = bench.pixels<float>("mattSums"), lobes = bench.pixels<float>("lobeSums");
+    const auto origin = bench.pixels<float>("origin"), normal = bench.pixels<float>("normal");
+    const auto position = bench.pixels<float>("position");
+    const auto object = bench.pixels<std::uint32_t>("objectId"), gloss = bench.pixels<std::uint32_t>("gloss");
+    const auto rays = bench.pixels<std::uint32_t>("rays"), taken = bench.pixels<std::uint32_t>("taken");
+    const glm::dvec3 eye = toGlm(bench.own<shared::FrameParams>("frame").eye);
+    const scene::Geometry& g = frame.scene().geometry;
+    const bvh::Bvh hierarchy = bvh::build({ g.positions, g.indices });
+    unsigned lit = 0, hidden = 0, differ = 0, nothing = 0;
+    const auto vectorAt = [](const Planes<float>& planes, int x, int y, std::size_t first) {
+        return glm::dvec3(planes.at(x, y, first), planes.at(x, y, first + 1), planes.at(x, y, first + 2));
+    };
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return glm::length(a - b) <= 1e-5 + 2e-4 * glm::length(b); // lobes end at 1e-7 of their peak
+    };
+    everyPixel(frame.layout, [&](int x, int y) {
+        if (object.at(x, y) == 0) {
+            ++nothing;
+            REQUIRE(taken.at(x, y) == 0);
+            REQUIRE(rays.at(x, y) == 0);
+            return;
+        }
+        REQUIRE(taken.at(x, y) == count);
+        const glm::dvec3 at = origin.vector(x, y), n = normal.vector(x, y);
+        const glm::dvec3 view = glm::normalize(eye - position.vector(x, y));
+        const shared::Gloss own = shared::unpackGloss(gloss.at(x, y));
+        glm::dvec3 sums[6] = {};
+        std::uint32_t traces = 0;
+        for (const render::MapLight& light : lights) {
+            const glm::dvec3 l = light.towards;
+            const double cosine = glm::dot(n, l);
+            if (cosine <= 0)
+                continue;
+            ++traces;
+            const bool occluded =
+                bvh::anyHit(hierarchy, { toVec3(at), 0, toVec3(l), std::numeric_limits<float>::infinity() });
+            (occluded ? hidden : lit) += 1;
+            const double weights[] = { 1 / std::numbers::pi, lobe(own, n, view, l), lobe(widened(own), n, view, l) };
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3 all = cosine * weights[k] * glm::dvec3(light.irradiance);
+                sums[2 * k] += occluded ? glm::dvec3(0) : all;
+                sums[2 * k + 1] += all;
+            }
+        }
+        REQUIRE(rays.at(x, y) == traces);
+        REQUIRE(near(vectorAt(matt, x, y, 3), sums[1]));
+        REQUIRE(near(vectorAt(lobes, x, y, 3), sums[3]));
+        REQUIRE(near(vectorAt(lobes, x, y, 9), sums[5]));
+        const bool same = near(vectorAt(matt, x, y, 0), sums[0]) && near(vectorAt(lobes, x, y, 0), sums[2])
+            && near(vectorAt(lobes, x, y, 6), sums[4]);
+        differ += same ? 0 : 1;
+    });
+    CHECK(lit > 3000);
+    CHECK(hidden > 500);
+    CHECK(nothing > 20);
+    CHECK(differ <= 12); // rays through edges
+}
+
+} // namespace
+
+TEST_CASE("shadowLights: what lights bring, and what of it their shadows leave")
+{
+    onEveryDevice([](const device::Device& device) {
+        compare(device, under(scene::SpecularModel::Phong, 40));
+        compare(device, under(scene::SpecularModel::BlinnPhong, 90));
+        compare(device, under(scene::SpecularModel::Phong, 0.5f)); // wider than lights are apart
+    });
+}
+
+TEST_CASE("shadowLights: microfacets reflect what the shared maths says")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, under(scene::SpecularModel::Ggx, 1), settings(render::Shadows::Ratio));
+        const std::vector<render::MapLight> lights = render::mapLights(*frame.scene().picture(), count);
+        Traced traced(frame, lights);
+        traced.upTo(count);
+        const PassBench& bench = traced.pass;
+        const auto lobes = bench.pixels<float>("lobeSums"), normal = bench.pixels<float>("normal");
+        const auto position = bench.pixels<float>("position");
+        const auto object = bench.pixels<std::uint32_t>("objectId"), gloss = bench.pixels<std::uint32_t>("gloss");
+        const glm::dvec3 eye = toGlm(bench.own<shared::FrameParams>("frame").eye);
+        std::size_t seen = 0;
+        everyPixel(frame.layout, [&](int x, int y) {
+            if (object.at(x, y) == 0)
+                return;
+            const glm::dvec3 n = normal.vector(x, y), view = glm::normalize(eye - position.vector(x, y));
+            const shared::Gloss own = shared::unpackMicrofacets(gloss.at(x, y));
+            double sums[2] = {};
+            for (const render::MapLight& light : lights)
+                for (const bool wide : { false, true }) {
+                    const glm::dvec3 l = light.towards;
+                    const double cosine = std::max(glm::dot(n, l), 0.0);
+                    if (cosine > 0)
+                        sums[wide ? 1 : 0] += cosine * light.irradiance.y
+                            * shared::lobeValue(
+                                shared::lobeOf(wide ? widened(own) : own), toVec3(n), toVec3(view), toVec3(l));
+                }
+            REQUIRE(lobes.at(x, y, 4) == doctest::Approx(sums[0]).epsilon(1e-3));
+            REQUIRE(lobes.at(x, y, 10) == doctest::Approx(sums[1]).epsilon(1e-3));
+            ++seen;
+        });
+        CHECK(seen > 800);
+    });
+}
+
+TEST_CASE("shadowLights: slices of lights have the bits of all at once")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, under(scene::SpecularModel::Phong, 40), settings(render::Shadows::Ratio));
+        const std::vector<render::MapLight> lights = render::mapLights(*frame.scene().picture(), count);
+        Traced once(frame, lights), twice(frame, lights);
+        once.upTo(count);
+        twice.upTo(5);
+        twice.upTo(count);
+        for (const char* name : { "mattSums", "lobeSums" })
+            CHECK(sameBits(once.pass.read<float>(name), twice.pass.read<float>(name)));
+        CHECK(once.pass.read<std::uint32_t>("rays") == twice.pass.read<std::uint32_t>("rays"));
+    });
+}
+
+TEST_CASE("combineShadowLights: what is left of the whole light, each way, and how often it is clamped")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, under(scene::SpecularModel::Phong, 40), settings(render::Shadows::Ratio));
+        PassBench primary(frame, "primary"), bench(frame, "combineShadowLights");
+        primary.run();
+        for (const char* name : { "position", "normal" })
+            bench.plane(name, primary.read<float>(name));
+        bench.plane("gloss", primary.read<std::uint32_t>("gloss"));
+        std::mt19937 random(3);
+        const std::size_t size = frame.layout.size;
+        bench.plane("diffuse", someNumbers(random, 3 * size, 0.1, 1));
+        bench.plane("specular", someNumbers(random, 3 * size, 0, 1));
+        std::vector<std::uint32_t> lights = someCounts(random, size, 4); // none of a quarter, and beside surfaces
+        const std::vector<std::uint32_t> objects = primary.read<std::uint32_t>("objectId");
+        for (std::size_t i = 0; i < size; ++i)
+            lights[i] = objects[i] == 0 ? 0 : lights[i];
+        bench.plane("taken", lights);
+        // Shadowed is at most unshadowed; some have no light at all.
+        const auto sums = [&](std::size_t pairs) {
+            std::vector<float> out = someNumbers(random, 6 * pairs * size, 0, 3);
+            for (std::size_t pair = 0; pair < pairs; ++pair)
+                for (std::size_t i = 0; i < 3 * size; ++i) {
+                    float& a = out[6 * pair * size + i];
+                    float& u = out[(6 * pair + 3) * size + i];
+                    u = random() % 8 == 0 ? 0.0f : u;
+                    a = random() % 4 == 0 ? u : std::min(a, u);
+                }
+            return out;
+        };
+        bench.plane("mattSums", sums(1));
+        bench.plane("lobeSums", sums(2));
+        bench.value("mostRed", 2.0f);
+        bench.value("mostGreen", 1.5f);
+        bench.value("mostBlue", 1.0f);
+        const std::vector<float> before = someNumbers(random, 3 * size);
+        const auto run = [&](std::uint32_t shadows, std::uint32_t rings, bool clamps, bool wide) {
+            bench.plane("lit", before);
+            bench.value("shadows", shadows);
+            bench.value("rings", rings);
+            bench.value("clamps", clamps ? 1u : 0u);
+            bench.value("wide", wide ? 1u : 0u);
+            bench.run();
+            return bench.pixels<float>("lit");
+        };
+        const auto at = [&](const char* name) { return bench.pixels<float>(name); };
+        const auto diffuse = at("diffuse"), specular = at("specular"), matt = at("mattSums"), lobes = at("lobeSums");
+        const auto taken = bench.pixels<std::uint32_t>("taken");
+        const auto start = planesOf(frame.layout, before);
+        const auto only = [&](const Planes<float>& after, int x, int y, std::size_t c) {
+            return double { after.at(x, y, c) } - start.at(x, y, c);
+        };
+
+        SUBCASE("with the lights' own light for the whole all are as additive, within four roundings")
+        {
+            const auto additive = run(WEDGE_SHADOWS_ADDITIVE, 0, false, false);
+            for (const std::uint32_t shadows : { WEDGE_SHADOWS_SUBTRACTIVE, WEDGE_SHADOWS_RATIO }) {
+                const auto other = run(shadows, 0, true, false);
+                const auto clamped = bench.pixels<std::uint32_t>("clamped");
+                everyPixel(frame.layout, [&](int x, int y) {
+                    REQUIRE(clamped.at(x, y) == 0);
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const double k = diffuse.at(x, y, c), s = specular.at(x, y, c);
+                        const double a = k * matt.at(x, y, c) + s * lobes.at(x, y, c);
+                        const double whole = k * matt.at(x, y, c + 3) + s * lobes.at(x, y, c + 3);
+                        // The sum with what was there before rounds, too.
+                        const double error =
+                            std::numeric_limits<float>::epsilon() * (2 * whole + std::abs(start.at(x, y, c)) + a);
+                        REQUIRE(std::abs(only(other, x, y, c) - only(additive, x, y, c)) <= error);
+                        REQUIRE(std::abs(only(additive, x, y, c) - (taken.at(x, y) > 0 ? a : 0)) <= error);
+                    }
+                });
+            }
+        }
+        SUBCASE("of the map's own light")
+        {
+            // The whole light itself, by a ratio of what hides nothing.
+            const auto kept = bench.read<float>("mattSums");
+            const auto keptLobes = bench.read<float>("lobeSums");
+            bench.plane("mattSums", std::vector<float>(kept.size(), 1.0f));
+            bench.plane("lobeSums", std::vector<float>(keptLobes.size(), 1.0f));
+            bench.plane("specular", std::vector<float>(3 * size, 0.0f));
+            const auto ofMatt = run(WEDGE_SHADOWS_RATIO, 8, false, true);
+            bench.plane("specular", specular);
+            const auto both = run(WEDGE_SHADOWS_RATIO, 8, false, true);
+            bench.plane("mattSums", kept);
+            bench.plane("lobeSums", keptLobes);
+            const auto part = [&](const Planes<float>& planes, int x, int y, std::size_t c, bool wide) {
+                const double u = double { planes.at(x, y, c + 3) } + (wide ? planes.at(x, y, c + 9) : 0.0f);
+                const double a = double { planes.at(x, y, c) } + (wide ? planes.at(x, y, c + 6) : 0.0f);
+                return u > 0 ? a / u : 1.0;
+            };
+            const auto ratio = run(WEDGE_SHADOWS_RATIO, 8, false, true);
+            const auto clamped = run(WEDGE_SHADOWS_SUBTRACTIVE, 8, true, false);
+            const auto counts = bench.pixels<std::uint32_t>("clamped");
+            const auto open = run(WEDGE_SHADOWS_SUBTRACTIVE, 8, false, false);
+            const auto none = bench.pixels<std::uint32_t>("clamped");
+            std::size_t below = 0;
+            everyPixel(frame.layout, [&](int x, int y) {
+                bool any = false;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const bool there = taken.at(x, y) > 0;
+                    const double k = diffuse.at(x, y, c), s = specular.at(x, y, c);
+                    const double wholeMatt = only(ofMatt, x, y, c), wholeLobe = only(both, x, y, c) - wholeMatt;
+                    const auto near = [](double value, double expected) {
+                        return std::abs(value - expected) <= 2e-6 * (3 + std::abs(expected));
+                    };
+                    const double byRatio =
+                        wholeMatt * part(matt, x, y, c, false) + wholeLobe * part(lobes, x, y, c, true);
+                    REQUIRE(near(only(ratio, x, y, c), byRatio));
+                    const double m = wholeMatt - k * (double { matt.at(x, y, c + 3) } - matt.at(x, y, c));
+                    const double l = wholeLobe - s * (double { lobes.at(x, y, c + 3) } - lobes.at(x, y, c));
+                    REQUIRE(near(only(open, x, y, c), there ? m + l : 0));
+                    REQUIRE(near(only(clamped, x, y, c), there ? std::max(m, 0.0) + std::max(l, 0.0) : 0));
+                    any |= there && (m < -1e-5 || l < -1e-5);
+                }
+                REQUIRE((counts.at(x, y) == 1 || !any));
+                REQUIRE((counts.at(x, y) == 0 || taken.at(x, y) > 0));
+                REQUIRE(none.at(x, y) == 0);
+                below += any ? 1 : 0;
+            });
+            CHECK(below > 100);
+        }
+    });
+}
+
+TEST_CASE("combineShadowLights: the whole light of a smooth map is the integral over it")
+{
+    onEveryDevice([](const device::Device& device) {
+        // L = 1 + 0.5 d.up: pi (1 + n.up / 3) / pi by diffuse reflection, exactly of the harmonics.
+        auto slope = even(glm::vec3(0), 64, 32);
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 64; ++x)
+                set(*slope, x, y, glm::dvec3(1 + 0.5 * std::cos(std::numbers::pi * (y + 0.5) / 32)));
+        scene::Scene scene = under(scene::SpecularModel::Phong, 30);
+        render::setEnvironment(scene, slope);
+        DeclaredFrame frame(device, scene, settings(render::Shadows::Ratio));
+        PassBench primary(frame, "primary"), bench(frame, "combineShadowLights");
+        primary.run();
+        for (const char* name : { "position", "normal" })
+            bench.plane(name, primary.read<float>(name));
+        bench.plane("gloss", primary.read<std::uint32_t>("gloss"));
+        const std::size_t size = frame.layout.size;
+        bench.plane("taken", std::vector<std::uint32_t>(size, 1));
+        for (const char* name : { "mattSums", "lobeSums" })
+            bench.plane(name, std::vector<float>(bench.read<float>(name).size(), 1.0f));
+        const auto object = primary.pixels<std::uint32_t>("objectId");
+        const auto normal = primary.pixels<float>("normal"), position = primary.pixels<float>("position");
+        const glm::dvec3 eye = toGlm(primary.own<shared::FrameParams>("frame").eye);
+        for (const bool lobes : { false, true }) {
+            CAPTURE(lobes);
+            bench.plane("diffuse", std::vector<float>(3 * size, lobes ? 0.0f : 1.0f));
+            bench.plane("specular", std::vector<float>(3 * size, lobes ? 1.0f : 0.0f));
+            bench.plane("lit", std::vector<float>(3 * size, 0.0f));
+            bench.run();
+            const auto lit = bench.pixels<float>("lit");
+            std::size_t seen = 0;
+            everyPixel(frame.layout, [&](int x, int y) {
+                if (object.at(x, y) == 0 || (lobes && (x + y) % 7 != 0))
+                    return;
+                const glm::dvec3 n = normal.vector(x, y), view = glm::normalize(eye - position.vector(x, y));
+                double expected = 1 + n.y / 3;
+                if (lobes) {
+                    expected = 0;
+                    const shared::Gloss gloss = shared::makeGloss(30, WEDGE_PHONG);
+                    constexpr int rows = 90;
+                    for (int row = 0; row < rows; ++row)
+                        for (int column = 0; column < 2 * rows; ++column) {
+                            const double polar = std::numbers::pi * (row + 0.5) / rows,
+                                         turn = std::numbers::pi * (column + 0.5) / rows;
+                            const glm::dvec3 l(
+                                std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
+                            const double solidAngle =
+                                std::sin(polar) * std::numbers::pi / rows * std::numbers::pi / rows;
+                            const double cosine = std::max(glm::dot(n, l), 0.0);
+                            expected += solidAngle * cosine * lobe(gloss, n, view, l) * (1 + 0.5 * l.y);
+                        }
+                }
+                REQUIRE(lit.at(x, y) == doctest::Approx(expected).epsilon(lobes ? 0.03 : 0.005));
+                ++seen;
+            });
+            CHECK(seen > (lobes ? 100 : 800));
+        }
+    });
+}
