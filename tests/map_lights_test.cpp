@@ -148,6 +148,16 @@ TEST_CASE("each place is in the cell of the nearest point, and lights are within
     }
 }
 
+TEST_CASE("of several points as near the first has a place")
+{
+    render::MapPlaces places { 4, 1, {} };
+    for (const glm::dvec3& d : { glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1) })
+        places.all.push_back({ d, pi, glm::dvec3(1), d });
+    const render::MapCells cells = render::mapCells(places, 2);
+    CHECK(cells.points == std::vector<std::uint32_t> { 0, 2 });
+    CHECK(cells.cellOf == std::vector<std::uint32_t> { 0, 0, 1, 0 });
+}
+
 TEST_CASE("texels of light on black are lights of their own")
 {
     auto p = even(glm::vec3(0), 128, 64);
@@ -184,16 +194,33 @@ TEST_CASE("parts of the sky have lights by their energy and a root of their size
     };
     CHECK(within(20, 40) == 30);
     CHECK(within(90, 40) == 10);
-    // A quarter of the texels in one row, and so of the solid angle, all below 0.01 sr: a weight of 0.25 0.25^(1/4).
-    auto rows = even(glm::vec3(0), 128, 64);
-    for (int x = 0; x < 4; ++x)
-        set(*rows, 20 + x, 32, glm::vec3(1));
-    set(*rows, 90, 32, glm::vec3(4));
-    const render::MapPlaces places = render::mapPlaces(*rows);
-    // One texel has room for one light; four of the same energy have 4 of 5 by room.
-    CHECK(render::mapCells(places, 5).points.size() == 5);
-    const std::vector<render::MapLight> two = render::mapLights(*rows, 2);
-    CHECK(two[0].irradiance.x == doctest::Approx(two[1].irradiance.x).epsilon(1e-5));
+    // As much light in a sixteenth of the solid angle, all below 0.01 sr: half the weight.
+    auto sharp = even(glm::vec3(0), 512, 256);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            set(*sharp, 300 + x, 124 + y, glm::vec3(1));
+    for (const int x : { 0, 1 })
+        for (const int y : { 0, 1 })
+            set(*sharp, 100 + x, 127 + y, glm::vec3(16));
+    const render::MapPlaces fine = render::mapPlaces(*sharp);
+    const auto inSmall = [&](std::uint32_t place) { return place % 512 < 200; };
+    CHECK(std::ranges::count_if(render::mapCells(fine, 6).points, inSmall) == 2);
+    CHECK(std::ranges::count_if(render::mapCells(fine, 30).points, inSmall) == 4); // it has no room for more
+    // The first column is beside the last one: one part, not two smaller ones.
+    auto seam = even(glm::vec3(0), 512, 256);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+            set(*seam, (508 + x) % 512, 124 + y, glm::vec3(1));
+            set(*seam, 200 + x, 124 + y, glm::vec3(1));
+        }
+    const auto atSeam = [](std::uint32_t place) { return place % 512 < 100 || place % 512 > 400; };
+    CHECK(std::ranges::count_if(render::mapCells(render::mapPlaces(*seam), 20).points, atSeam) == 10);
+    // A texel that has nearly all light takes one light all the same.
+    auto spike = even(glm::vec3(1), 64, 32);
+    set(*spike, 30, 10, glm::vec3(1e6f));
+    const render::MapCells spiked = render::mapCells(render::mapPlaces(*spike), 10);
+    CHECK(std::set<std::uint32_t>(spiked.points.begin(), spiked.points.end()).size() == 10);
+    CHECK(std::ranges::count(spiked.points, 10u * 64u + 30u) == 1);
     // A gradient: brighter parts have more lights for their area than darker ones.
     auto slope = even(glm::vec3(0), 64, 32);
     for (int y = 0; y < 32; ++y)

@@ -95,29 +95,57 @@ private:
     MapCells cells_;
 };
 
-/// Shares `count` out by weights, each at most what there is room for, the largest remainders first. Where all weigh
-/// nothing, by room. count: at most all of the room
+/// What those that are not full want of `count`, by weights, or where these weigh nothing by room.
+std::vector<double> wanted(std::span<const double> weights, std::span<const std::size_t> room,
+    const std::vector<bool>& full, std::size_t count)
+{
+    double total = 0, all = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        total += full[i] ? 0.0 : weights[i];
+        all += full[i] ? 0.0 : static_cast<double>(room[i]);
+    }
+    std::vector<double> out(weights.size(), 0.0);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const double share = total > 0 ? weights[i] / total : static_cast<double>(room[i]) / std::max(all, 1.0);
+        out[i] = full[i] ? 0.0 : static_cast<double>(count) * share;
+    }
+    return out;
+}
+
+/// Shares `count` out by weights, each at most what there is room for, the largest remainders first. count: at most all
+/// of the room
 std::vector<std::size_t> shared(std::span<const double> weights, std::span<const std::size_t> room, std::size_t count)
 {
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const auto all = static_cast<double>(std::accumulate(room.begin(), room.end(), std::size_t { 0 }));
-    std::vector<double> ideal(weights.size());
-    std::vector<std::size_t> out(weights.size());
+    std::vector<std::size_t> out(weights.size(), 0);
+    std::vector<bool> full(weights.size(), false);
+    std::vector<double> ideal = wanted(weights, room, full, count);
     std::size_t left = count;
+    for (bool more = true; more;) { // who has no room leaves the rest to the others
+        more = false;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (!full[i] && ideal[i] > static_cast<double>(room[i])) {
+                full[i] = more = true;
+                out[i] = room[i];
+                left -= room[i];
+            }
+        }
+        ideal = more ? wanted(weights, room, full, left) : ideal;
+    }
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        ideal[i] = static_cast<double>(count) * (total > 0 ? weights[i] / total : static_cast<double>(room[i]) / all);
-        out[i] = std::min({ static_cast<std::size_t>(ideal[i]), room[i], left });
-        left -= out[i];
+        const std::size_t whole = std::min(static_cast<std::size_t>(ideal[i]), left);
+        out[i] += whole;
+        left -= whole;
+        ideal[i] -= static_cast<double>(whole);
     }
     for (; left > 0; --left) {
         std::size_t most = weights.size();
         for (std::size_t i = 0; i < weights.size(); ++i) {
-            const auto remainder = [&](std::size_t k) { return ideal[k] - static_cast<double>(out[k]); };
-            if (out[i] < room[i] && (most == weights.size() || remainder(i) > remainder(most))) {
+            if (out[i] < room[i] && (most == weights.size() || ideal[i] > ideal[most])) {
                 most = i;
             }
         }
         ++out[most];
+        ideal[most] -= 1.0;
     }
     return out;
 }
