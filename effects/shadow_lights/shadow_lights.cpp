@@ -26,7 +26,7 @@ constexpr const char* program = "light/shadow_lights.cl";
 // Of a pixel between two looks at the cancel flag; also what one launch over one tile may cost.
 constexpr std::uint32_t sliceLights = 96;
 /// Of unshadowedLobe(): twice the square of this number of directions of a lobe, whatever the lights.
-constexpr std::uint32_t wholeRings = 8;
+constexpr std::uint32_t wholeRings = 16;
 
 /// Sums of lights: shadowed and unshadowed, R G B each.
 constexpr std::uint32_t sumPlanes = 6;
