@@ -274,9 +274,8 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
 {
     addChoice(parser, howGroup, "--shadows", shadows,
         "Direct light of an environment's map where the camera looks: sampled, the default; or by directional lights "
-        "that "
-        "stand for it: what they bring, all of the map's light less what their shadows take, or times the share that "
-        "these leave",
+        "that stand for it: what they bring, all of the map's light less what their shadows take, or times the share "
+        "that these leave",
         o.shadows);
     addValue(parser, howGroup, "--shadow-lights", "N", "With --shadows: how many lights. Default: 40",
         [&o](const std::string& text) {
@@ -284,8 +283,7 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
         });
     addChoice(parser, howGroup, "--shadow-complete", wholeLights,
         "With --shadows subtractive or ratio, all of the map's light: by harmonics and means of the map, the default, "
-        "or "
-        "what the lights bring without shadows",
+        "or what the lights bring without shadows",
         o.shadowComplete);
     addValue(parser, howGroup, "--shadow-clamp", "on|off",
         "With --shadows subtractive: whether light that is below 0 becomes 0. Default: on",
