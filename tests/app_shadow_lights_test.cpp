@@ -87,9 +87,9 @@ TEST_CASE("what lights for an environment's shadows cannot do is refused in a li
     refused({ "--shadow-lights", "9" },
         none + "without --shadows: --shadow-lights 9: leave it out, or add --shadows ratio");
     refused({ "--shadows", "additive", "--shadow-complete", "lights" },
-        none + "with --shadows additive: --shadow-complete: leave it out, or add --shadows ratio");
+        none + "with --shadows additive: --shadow-complete lights: leave it out, or add --shadows ratio");
     refused({ "--shadows", "ratio", "--shadow-clamp", "off" },
-        none + "with --shadows ratio: --shadow-clamp: leave it out, or add --shadows subtractive");
+        none + "with --shadows ratio: --shadow-clamp off: leave it out, or add --shadows subtractive");
     refused({ "--shadows", "ratio", "--environment-widths", "curvature" },
         none + "with --shadows ratio: --environment-widths: leave it out, or leave out --shadows");
     refused({ "--shadows", "ratio", "--integrator", "ao" },

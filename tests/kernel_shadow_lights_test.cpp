@@ -220,9 +220,7 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
         DeclaredFrame frame(device, under(scene::SpecularModel::Phong, 40), settings(render::Shadows::Ratio));
         PassBench primary(frame, "primary"), bench(frame, "combineShadowLights");
         primary.run();
-        for (const char* name : { "position", "normal" })
-            bench.plane(name, primary.read<float>(name));
-        bench.plane("gloss", primary.read<std::uint32_t>("gloss"));
+        bench.plane("normal", primary.read<float>("normal"));
         std::mt19937 random(3);
         const std::size_t size = frame.layout.size;
         std::vector<float> reflected = someNumbers(random, 3 * size, 0.1, 1);
@@ -247,16 +245,17 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
                 }
             return out;
         };
+        bench.plane("whole", someNumbers(random, 3 * size, 0, 2));
         bench.plane("mattSums", sums(1));
         bench.plane("lobeSums", sums(2));
         bench.value("mostRed", 2.0f);
         bench.value("mostGreen", 1.5f);
         bench.value("mostBlue", 1.0f);
         const std::vector<float> before = someNumbers(random, 3 * size);
-        const auto run = [&](std::uint32_t shadows, std::uint32_t rings, bool clamps, bool wide) {
+        const auto run = [&](std::uint32_t shadows, bool prefiltered, bool clamps, bool wide) {
             bench.plane("lit", before);
             bench.value("shadows", shadows);
-            bench.value("rings", rings);
+            bench.value("prefiltered", prefiltered ? 1u : 0u);
             bench.value("clamps", clamps ? 1u : 0u);
             bench.value("wide", wide ? 1u : 0u);
             bench.run();
@@ -272,9 +271,9 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
 
         SUBCASE("with the lights' own light for the whole all are as additive, within four roundings")
         {
-            const auto additive = run(WEDGE_SHADOWS_ADDITIVE, 0, false, false);
+            const auto additive = run(WEDGE_SHADOWS_ADDITIVE, false, false, false);
             for (const std::uint32_t shadows : { WEDGE_SHADOWS_SUBTRACTIVE, WEDGE_SHADOWS_RATIO }) {
-                const auto other = run(shadows, 0, true, false);
+                const auto other = run(shadows, false, true, false);
                 const auto clamped = bench.pixels<std::uint32_t>("clamped");
                 everyPixel(frame.layout, [&](int x, int y) {
                     REQUIRE(clamped.at(x, y) == 0);
@@ -299,20 +298,23 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
             bench.plane("mattSums", std::vector<float>(kept.size(), 1.0f));
             bench.plane("lobeSums", std::vector<float>(keptLobes.size(), 1.0f));
             bench.plane("specular", std::vector<float>(3 * size, 0.0f));
-            const auto ofMatt = run(WEDGE_SHADOWS_RATIO, 8, false, true);
+            const auto ofMatt = run(WEDGE_SHADOWS_RATIO, true, false, true);
             bench.plane("specular", specular);
-            const auto both = run(WEDGE_SHADOWS_RATIO, 8, false, true);
+            const auto both = run(WEDGE_SHADOWS_RATIO, true, false, true);
             bench.plane("mattSums", kept);
             bench.plane("lobeSums", keptLobes);
+            const auto wholeOf = at("whole");
+            // Of matt surfaces that no light reaches nothing is known to be lit.
+            const auto reached = [&](int x, int y, std::size_t c) { return matt.at(x, y, c + 3) > 0 ? 1.0 : 0.0; };
             const auto part = [&](const Planes<float>& planes, int x, int y, std::size_t c, bool wide) {
                 const double u = double { planes.at(x, y, c + 3) } + (wide ? planes.at(x, y, c + 9) : 0.0f);
                 const double a = double { planes.at(x, y, c) } + (wide ? planes.at(x, y, c + 6) : 0.0f);
                 return u > 0 ? a / u : 1.0;
             };
-            const auto ratio = run(WEDGE_SHADOWS_RATIO, 8, false, true);
-            const auto clamped = run(WEDGE_SHADOWS_SUBTRACTIVE, 8, true, false);
+            const auto ratio = run(WEDGE_SHADOWS_RATIO, true, false, true);
+            const auto clamped = run(WEDGE_SHADOWS_SUBTRACTIVE, true, true, false);
             const auto counts = bench.pixels<std::uint32_t>("clamped");
-            const auto open = run(WEDGE_SHADOWS_SUBTRACTIVE, 8, false, false);
+            const auto open = run(WEDGE_SHADOWS_SUBTRACTIVE, true, false, false);
             const auto none = bench.pixels<std::uint32_t>("clamped");
             std::size_t below = 0;
             everyPixel(frame.layout, [&](int x, int y) {
@@ -320,7 +322,9 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
                 for (std::size_t c = 0; c < 3; ++c) {
                     const bool there = taken.at(x, y) > 0;
                     const double k = diffuse.at(x, y, c), s = specular.at(x, y, c);
-                    const double wholeMatt = only(ofMatt, x, y, c), wholeLobe = only(both, x, y, c) - wholeMatt;
+                    const double wholeMatt = reached(x, y, c) * only(ofMatt, x, y, c),
+                                 wholeLobe = there ? s * wholeOf.at(x, y, c) : 0.0;
+                    REQUIRE(std::abs(only(both, x, y, c) - only(ofMatt, x, y, c) - wholeLobe) <= 1e-5);
                     const auto near = [](double value, double expected) {
                         return std::abs(value - expected) <= 2e-6 * (3 + std::abs(expected));
                     };
@@ -344,7 +348,7 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
     });
 }
 
-TEST_CASE("combineShadowLights: the whole light of a smooth map is the integral over it")
+TEST_CASE("combineShadowLights, wholeLobes: the whole light of a smooth map is the integral over it")
 {
     onEveryDevice([](const device::Device& device) {
         // L = 1 + 0.5 d.up: pi (1 + n.up / 3) / pi by diffuse reflection, exactly of the harmonics.
@@ -355,51 +359,87 @@ TEST_CASE("combineShadowLights: the whole light of a smooth map is the integral 
         scene::Scene scene = under(scene::SpecularModel::Phong, 30);
         render::setEnvironment(scene, slope);
         DeclaredFrame frame(device, scene, settings(render::Shadows::Ratio));
-        PassBench primary(frame, "primary"), bench(frame, "combineShadowLights");
-        primary.run();
-        for (const char* name : { "position", "normal" })
-            bench.plane(name, primary.read<float>(name));
-        bench.plane("gloss", primary.read<std::uint32_t>("gloss"));
+        Traced traced(frame, render::mapLights(*frame.scene().picture(), count));
+        const PassBench& primary = traced.primary;
+        PassBench combine(frame, "combineShadowLights"), whole(frame, "wholeLobes");
         const std::size_t size = frame.layout.size;
-        bench.plane("taken", std::vector<std::uint32_t>(size, 1));
+        whole.take(traced.pass);
+        std::vector<float> reflected(3 * size, 1.0f);
+        for (std::size_t i = 0; i < size; i += 3)
+            reflected[i] = reflected[size + i] = reflected[2 * size + i] = 0;
+        whole.plane("specular", reflected);
+        whole.plane("whole", std::vector<float>(3 * size, 0.0f));
+        whole.run();
+        combine.plane("normal", primary.read<float>("normal"));
+        combine.plane("taken", std::vector<std::uint32_t>(size, 1));
         for (const char* name : { "mattSums", "lobeSums" })
-            bench.plane(name, std::vector<float>(bench.read<float>(name).size(), 1.0f));
+            combine.plane(name, std::vector<float>(combine.read<float>(name).size(), 1.0f));
+        combine.plane("diffuse", std::vector<float>(3 * size, 1.0f));
+        combine.plane("specular", std::vector<float>(3 * size, 0.0f));
+        combine.plane("lit", std::vector<float>(3 * size, 0.0f));
+        combine.run();
         const auto object = primary.pixels<std::uint32_t>("objectId");
         const auto normal = primary.pixels<float>("normal"), position = primary.pixels<float>("position");
         const glm::dvec3 eye = toGlm(primary.own<shared::FrameParams>("frame").eye);
-        for (const bool lobes : { false, true }) {
-            CAPTURE(lobes);
-            bench.plane("diffuse", std::vector<float>(3 * size, lobes ? 0.0f : 1.0f));
-            bench.plane("specular", std::vector<float>(3 * size, lobes ? 1.0f : 0.0f));
-            bench.plane("lit", std::vector<float>(3 * size, 0.0f));
-            bench.run();
-            const auto lit = bench.pixels<float>("lit");
-            std::size_t seen = 0;
-            everyPixel(frame.layout, [&](int x, int y) {
-                if (object.at(x, y) == 0 || (lobes && (x + y) % 7 != 0))
-                    return;
-                const glm::dvec3 n = normal.vector(x, y), view = glm::normalize(eye - position.vector(x, y));
-                double expected = 1 + n.y / 3;
-                if (lobes) {
-                    expected = 0;
-                    const shared::Gloss gloss = shared::makeGloss(30, WEDGE_PHONG);
-                    constexpr int rows = 90;
-                    for (int row = 0; row < rows; ++row)
-                        for (int column = 0; column < 2 * rows; ++column) {
-                            const double polar = std::numbers::pi * (row + 0.5) / rows,
-                                         turn = std::numbers::pi * (column + 0.5) / rows;
-                            const glm::dvec3 l(
-                                std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
-                            const double solidAngle =
-                                std::sin(polar) * std::numbers::pi / rows * std::numbers::pi / rows;
-                            const double cosine = std::max(glm::dot(n, l), 0.0);
-                            expected += solidAngle * cosine * lobe(gloss, n, view, l) * (1 + 0.5 * l.y);
-                        }
-                }
-                REQUIRE(lit.at(x, y) == doctest::Approx(expected).epsilon(lobes ? 0.03 : 0.005));
+        const auto lit = combine.pixels<float>("lit"), lobes = whole.pixels<float>("whole");
+        const auto reflects = whole.pixels<float>("specular");
+        std::size_t seen = 0;
+        everyPixel(frame.layout, [&](int x, int y) {
+            if (object.at(x, y) == 0)
+                return;
+            const glm::dvec3 n = normal.vector(x, y), view = glm::normalize(eye - position.vector(x, y));
+            REQUIRE(lit.at(x, y) == doctest::Approx(1 + n.y / 3).epsilon(0.005));
+            if (reflects.at(x, y) == 0) {
+                REQUIRE(lobes.at(x, y) == 0);
+            } else if ((x + y) % 7 == 0) {
+                double expected = 0;
+                const shared::Gloss gloss = shared::makeGloss(30, WEDGE_PHONG);
+                constexpr int rows = 90;
+                for (int row = 0; row < rows; ++row)
+                    for (int column = 0; column < 2 * rows; ++column) {
+                        const double polar = std::numbers::pi * (row + 0.5) / rows,
+                                     turn = std::numbers::pi * (column + 0.5) / rows;
+                        const glm::dvec3 l(
+                            std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn));
+                        const double solidAngle = std::sin(polar) * std::numbers::pi / rows * std::numbers::pi / rows;
+                        expected +=
+                            solidAngle * std::max(glm::dot(n, l), 0.0) * lobe(gloss, n, view, l) * (1 + 0.5 * l.y);
+                    }
+                REQUIRE(lobes.at(x, y) == doctest::Approx(expected).epsilon(0.03));
                 ++seen;
-            });
-            CHECK(seen > (lobes ? 100 : 800));
+            }
+        });
+        CHECK(seen > 60);
+    });
+}
+
+TEST_CASE("combineShadowLights: matt surfaces that face the black half of a map are black")
+{
+    onEveryDevice([](const device::Device& device) {
+        auto above = even(glm::vec3(0), 64, 32);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 64; ++x)
+                set(*above, x, y, glm::dvec3(1));
+        scene::Scene scene = under(scene::SpecularModel::Phong, 30);
+        render::setEnvironment(scene, above);
+        for (const render::Shadows shadows : { render::Shadows::Ratio, render::Shadows::Subtractive }) {
+            DeclaredFrame frame(device, scene, settings(shadows));
+            PassBench combine(frame, "combineShadowLights");
+            const std::size_t size = frame.layout.size;
+            std::vector<float> down(3 * size, 0.0f);
+            std::fill(down.begin() + static_cast<std::ptrdiff_t>(size),
+                down.begin() + static_cast<std::ptrdiff_t>(2 * size), -1.0f);
+            combine.plane("normal", down);
+            combine.plane("taken", std::vector<std::uint32_t>(size, 1));
+            combine.plane("diffuse", std::vector<float>(3 * size, 1.0f));
+            const std::size_t numbers = combine.read<float>("mattSums").size();
+            for (const float brought : { 0.0f, 1e-3f }) { // by lights in front of it, which nothing hides
+                combine.plane("mattSums", std::vector<float>(numbers, brought));
+                combine.plane("lit", std::vector<float>(3 * size, 0.0f));
+                combine.run();
+                CHECK(std::ranges::all_of(
+                    combine.read<float>("lit"), [](float value) { return std::abs(value) < 1e-3f; }));
+            }
         }
     });
 }

@@ -1,6 +1,8 @@
 // Widths of filter/spread.cl that grow with what is left out, kernel by kernel, against their definitions in double.
 #include "tests/spread_support.h"
 
+#include <limits>
+
 using namespace wedge;
 using namespace wedge::test;
 
@@ -33,6 +35,27 @@ public:
         setLoss(excess_, lost, area, area.window, widest);
         excess_.plane("per", per());
         excess_.plane("width", width());
+        return gainedBy(excess_, before);
+    }
+    /// What the second kernel makes of a crop where all that lies beyond the crop's reach is what was there before.
+    Gained beside(const Lost& lost, const Area& crop, float widest, const Planes<float>& before)
+    {
+        Lost known = lost;
+        Planes<float> share = per(), wide = width();
+        const int reach = static_cast<int>(std::ceil(2 * widest));
+        const image::Window made = { crop.window.x0 - reach, crop.window.y0 - reach, crop.window.x1 + reach,
+            crop.window.y1 + reach };
+        everyPixelOf({ 0, 0, crop.width, crop.height }, [&](int x, int y) {
+            if (x >= made.x0 && x < made.x1 && y >= made.y0 && y < made.y1)
+                return;
+            const float any = (x + y) % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : 1e30f;
+            known.excess.setVector(x, y, glm::dvec3(any));
+            share.at(x, y) = (x + y) % 3 == 0 ? any : 1.0f;
+            wide.at(x, y) = 100;
+        });
+        setLoss(excess_, known, crop, crop.window, widest);
+        excess_.plane("per", share);
+        excess_.plane("width", wide);
         return gainedBy(excess_, before);
     }
     Planes<float> per() const { return widths_.pixels<float>("per"); }
@@ -153,5 +176,17 @@ TEST_CASE("spreadSums, spreadExcess: of twice the light twice as much, of light 
         scale(lost.excess, -1);
         spread(lost, area, 0.5f, 4, before);
         CHECK(spread.width().values == width);
+    });
+}
+
+TEST_CASE("spreadExcess: of a crop nothing is read that lies beyond its reach")
+{
+    std::mt19937 random(8);
+    onEveryGrowingSpread([&](GrowingSpread& spread) {
+        const Area &whole = areas()[0], &crop = areas()[1];
+        const Lost lost = someLoss(spread.layout(), whole, random);
+        const auto before = planesOf(spread.layout(), someNumbers(random, 4 * spread.layout().size, 0, 10));
+        const Gained all = spread(lost, whole, 0.5f, 1, before), part = spread.beside(lost, crop, 1, before);
+        everyPixelOf(crop.window, [&](int x, int y) { REQUIRE(part.sums.vector(x, y) == all.sums.vector(x, y)); });
     });
 }

@@ -279,16 +279,33 @@ TEST_CASE("what is not direct light of the map stays as it was, and so do frames
     });
 }
 
-TEST_CASE("a frame that is stopped has what it has")
+TEST_CASE("a frame that is stopped has the lights that were taken")
 {
     onEveryDevice([](const device::Device& device) {
         render::Renderer renderer(things(spotted(), 0.3f), device, renderOptions());
-        std::atomic<bool> stop = true;
-        render::Control control;
-        control.cancel = &stop;
         for (const Shadows shadows : ways) {
-            CHECK_FALSE(renderer.render(with(shadows), control).complete);
-            CHECK(notFinite(pixels(renderer, "beauty", { 0, 0, width, height })) == 0);
+            const render::Settings settings = with(shadows, 600);
+            const std::vector<float> whole = renderPixels(renderer, settings);
+            std::size_t lit = 0, darker = 0;
+            for (const double share : { 0.0, 0.3, 0.5, 0.7 }) {
+                std::atomic<bool> stop = false;
+                render::Control control;
+                control.cancel = &stop;
+                control.progress = [&](double done) { stop = stop || done >= share; };
+                if (renderer.render(settings, control).complete)
+                    continue;
+                CHECK(notFinite(pixels(renderer, "beauty", { 0, 0, width, height })) == 0);
+                const std::vector<float> part = pixels(renderer, "beauty", { 0, 0, width, height });
+                for (std::size_t i = 0; shadows == Shadows::Additive && i < part.size(); ++i) {
+                    REQUIRE(part[i] <= whole[i] * 1.0001f + 1e-5f);
+                    lit += part[i] > 0 ? 1 : 0;
+                    darker += part[i] < 0.99f * whole[i] ? 1 : 0;
+                }
+            }
+            if (shadows == Shadows::Additive) {
+                CHECK(lit > 0);
+                CHECK(darker > 0);
+            }
         }
     });
 }

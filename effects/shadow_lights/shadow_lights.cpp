@@ -25,11 +25,17 @@ constexpr const char* program = "light/shadow_lights.cl";
 
 // Of a pixel between two looks at the cancel flag; also what one launch over one tile may cost.
 constexpr std::uint32_t sliceLights = 96;
-/// Of unshadowedLobe(): twice the square of this number of directions of a lobe, whatever the lights.
+/// Of wholeLobes: twice the square of this number of directions of a lobe, whatever the lights.
 constexpr std::uint32_t wholeRings = 16;
 
 /// Sums of lights: shadowed and unshadowed, R G B each.
 constexpr std::uint32_t sumPlanes = 6;
+
+/// The map's whole light is another than that of the lights.
+bool isPrefiltered(const ShadowSettings& s)
+{
+    return s.whole == WholeLight::Prefiltered && s.shadows != Shadows::Additive;
+}
 
 bool widens(const ShadowSettings& s) { return s.shadows == Shadows::Ratio && s.whole == WholeLight::Prefiltered; }
 
@@ -45,6 +51,9 @@ graph::Handle<Directions> listOfLights(FrameBuilder& f)
         .domain = graph::Domain::Host,
         .step =
             [picture = f.description.picture(), count, list](graph::Run& run) {
+                if (run.rehearsal()) {
+                    return;
+                }
                 std::vector<float> numbers;
                 numbers.reserve(count * WEDGE_SHADOW_LIGHT_FLOATS);
                 for (const MapLight& light : mapLights(*picture, count)) {
@@ -62,7 +71,20 @@ graph::Handle<Directions> listOfLights(FrameBuilder& f)
 struct Lit {
     graph::Handle<Sums> matt, lobes;
     graph::Handle<Count> taken;
+    graph::Handle<Radiance> whole; ///< of lobes, without shadows; of no graph where it is that of the lights
 };
+
+/// Lobes see the map as it is. By tiles, since that takes longer than all shadow rays.
+graph::Handle<Radiance> wholeLobes(FrameBuilder& f, ReceiverSet& at)
+{
+    auto whole = f.graph.plane<Radiance>("whole light of lobes", graph::vectors);
+    f.zero(whole);
+    at.trace("whole light of lobes", { program, "wholeLobes" },
+        joined({ at.frame(), value("rings", wholeRings) }, f.beyond(), at.arguments(),
+            Arguments { reads("specular", f.surfaces.specular), updates("whole", whole) }),
+        [](const graph::Launch&) { return 2.0 * wholeRings * wholeRings; });
+    return whole;
+}
 
 graph::Argument ofLobes(const FrameBuilder& f, graph::Handle<Sums>& lobes)
 {
@@ -76,7 +98,7 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
     const graph::Handle<Directions> lights = listOfLights(f);
     Lit lit { f.graph.plane<Sums>("sums of matt light", graph::floatPlanes(sumPlanes)),
         f.graph.plane<Sums>("sums of lobes' light", graph::floatPlanes(widens(s) ? 2 * sumPlanes : sumPlanes)),
-        f.graph.plane<Count>("lights taken", graph::counts) };
+        f.graph.plane<Count>("lights taken", graph::counts), {} };
     f.zero(lit.matt, lit.taken);
     if (f.specular()) {
         f.zero(lit.lobes);
@@ -91,6 +113,9 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
                     updates("mattSums", lit.matt), ofLobes(f, lit.lobes), at.tallyRays() }),
             slices.workUnits(static_cast<double>(count)));
     });
+    if (f.specular() && isPrefiltered(s)) {
+        lit.whole = wholeLobes(f, at);
+    }
     return lit;
 }
 
@@ -99,10 +124,9 @@ Arguments combination(const FrameBuilder& f)
 {
     const ShadowSettings& s = f.settings.environment.shadows;
     const std::uint32_t ways[] = { 0u, WEDGE_SHADOWS_ADDITIVE, WEDGE_SHADOWS_SUBTRACTIVE, WEDGE_SHADOWS_RATIO };
-    const bool prefiltered = s.whole == WholeLight::Prefiltered && s.shadows != Shadows::Additive;
     const glm::vec3 most(f.scene != nullptr ? f.description.lights().beyond->mostIrradiance : glm::dvec3(0.0));
     return graph::together("combination",
-        { value("shadows", ways[static_cast<int>(s.shadows)]), value("rings", prefiltered ? wholeRings : 0u),
+        { value("shadows", ways[static_cast<int>(s.shadows)]), value("prefiltered", isPrefiltered(s) ? 1u : 0u),
             value("clamps", s.shadows == Shadows::Subtractive && s.clamp ? 1u : 0u), value("wide", widens(s) ? 1u : 0u),
             value("mostRed", most.r), value("mostGreen", most.g), value("mostBlue", most.b) });
 }
@@ -114,12 +138,12 @@ void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
     const Surfaces& seen = f.surfaces;
     auto clamped = f.graph.plane<Count>("clamped", graph::counts);
     f.pixels("composite", PassKind::Composite, { program, "combineShadowLights" },
-        joined({ f.rectangle(f.analysisParams()), value("frame", f.wholeFrame()) }, combination(f), f.beyond(),
+        joined({ f.rectangle(f.analysisParams()) }, combination(f), f.beyond(),
             graph::together("surfaces",
-                { reads("position", seen.position), reads("normal", seen.normal), reads("gloss", seen.gloss),
-                    reads("diffuse", seen.diffuse), reads("specular", seen.specular) }),
+                { reads("normal", seen.normal), reads("diffuse", seen.diffuse), reads("specular", seen.specular) }),
             Arguments { reads("mattSums", lit.matt),
                 f.specular() ? reads("lobeSums", lit.lobes) : graph::absent("lobeSums", graph::floatPlanes(sumPlanes)),
+                lit.whole.graph != 0 ? reads("whole", lit.whole) : graph::absent("whole", graph::vectors),
                 reads("taken", lit.taken), updates("lit", radiance), writes("clamped", clamped) }));
     if (s.shadows == Shadows::Subtractive && s.clamp) {
         graph::Handle<Tally>& tally = f.totals.tallies.clamped;

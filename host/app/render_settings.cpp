@@ -138,10 +138,27 @@ std::string shadowsOption(const RenderOptions& o)
     return "--shadows " + render::shadowsName(o.shadows.value_or(render::Shadows::Sampled));
 }
 
-/// One of the options that go with it.
+/// Those that go with it.
+std::string shadowLights(const RenderOptions& o)
+{
+    return fmt::format("--shadow-lights {}", o.shadowLights.value_or(0));
+}
+
+std::string shadowComplete(const RenderOptions& o)
+{
+    return "--shadow-complete "
+        + wholeLights[static_cast<std::size_t>(o.shadowComplete.value_or(render::WholeLight::Prefiltered))];
+}
+
+std::string shadowClamp(const RenderOptions& o)
+{
+    return std::string("--shadow-clamp ") + (o.shadowClamp.value_or(true) ? "on" : "off");
+}
+
+/// One of these.
 std::string shadowOfThem(const RenderOptions& o)
 {
-    return o.shadowLights ? "--shadow-lights" : o.shadowComplete ? "--shadow-complete" : "--shadow-clamp";
+    return o.shadowLights ? shadowLights(o) : o.shadowComplete ? shadowComplete(o) : shadowClamp(o);
 }
 
 /// Lights that stand for a map, and what goes with them alone.
@@ -153,11 +170,10 @@ void applyShadows(const RenderOptions& o, const render::PreparedScene& scene, re
     const bool sampled = to.shadows == render::Shadows::Sampled;
     refuse(!sampled && scene.picture() == nullptr, "without an environment", option, "add [environment] to the scene");
     const std::string without = o.shadows ? "with " + option : "without --shadows";
-    refuse(sampled && o.shadowLights, without, fmt::format("--shadow-lights {}", o.shadowLights.value_or(0)),
+    refuse(sampled && o.shadowLights, without, shadowLights(o), "add --shadows ratio");
+    refuse(o.shadowComplete && (sampled || to.shadows == render::Shadows::Additive), without, shadowComplete(o),
         "add --shadows ratio");
-    refuse(o.shadowComplete && (sampled || to.shadows == render::Shadows::Additive), without, "--shadow-complete",
-        "add --shadows ratio");
-    refuse(o.shadowClamp && to.shadows != render::Shadows::Subtractive, without, "--shadow-clamp",
+    refuse(o.shadowClamp && to.shadows != render::Shadows::Subtractive, without, shadowClamp(o),
         "add --shadows subtractive");
     refuse(!sampled && o.environmentWidths, "with " + option, "--environment-widths", "leave out --shadows");
     to.lights = o.shadowLights.value_or(to.lights);

@@ -126,7 +126,8 @@ __kernel void spreadExcess(PARAMETERS)
 #else
                 const float there = sigma;
 #endif
-                const int dy = v - (int)y, far = spreadReach(there);
+                // Beyond the reach are pixels that a crop has not made.
+                const int dy = v - (int)y, far = min(spreadReach(there), reach);
                 if (abs(dy) > (uint)far) {
                     continue;
                 }
@@ -134,8 +135,11 @@ __kernel void spreadExcess(PARAMETERS)
                 const int16 gets = (fabs(across) <= (float)far) & (own == (uint16)(objectId[j])) & (count != 0u)
                     & (dot16(facing, splat3(LOAD_normal(size, j))) >= WEDGE_SPREAD_COSINE);
                 if (any(gets)) {
-                    const float16 part = per[j] * spreadWeights(across, dy, there);
-                    gained = mad16(gained, splat3(loadVec(excess, size, j)), gets ? part : (float16)(0.0f));
+                    const float16 part = per[j] * spreadWeights(across, dy, there), none = (float16)(0.0f);
+                    const Vec3 lost = loadVec(excess, size, j);
+                    gained.x += gets ? lost.x * part : none;
+                    gained.y += gets ? lost.y * part : none;
+                    gained.z += gets ? lost.z * part : none;
                 }
             }
         }

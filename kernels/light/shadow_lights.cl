@@ -116,9 +116,8 @@ WEDGE_FN void traceLight(__global const TraversalNode* restrict nodes, __global 
 ///
 /// in      frame, BVH, receivers; lights: WEDGE_SHADOW_LIGHT_FLOATS each; widest: the exponent of the
 ///         Phong lobe that wider lobes are at least as wide as, or 0: there are none
-/// in out  taken: lights; mattSums (6 planes: shadowed, unshadowed), over the diffuse reflectance; lobeSums (6, and
-/// with
-///         widest 6 more, of wider lobes), over the specular one; rays
+/// in out  taken: lights; mattSums (6 planes: shadowed, unshadowed), over the diffuse reflectance; lobeSums (6, and 6
+///         more of wider lobes), over the specular one; rays
 #include "pass/shadowLights.h"
 #ifdef PASS_shadowLights
 __kernel void shadowLights(PARAMETERS)
@@ -185,31 +184,56 @@ __kernel void shadowLights(PARAMETERS)
 }
 #endif
 
+/// What lobes reflect of the map if nothing hides it, over their specular reflectance.
+/// in      rings: of unshadowedLobe(); specular: 3 planes; the map, receivers
+/// in out  whole: 3 planes, set where something is reflected
+#include "pass/wholeLobes.h"
+#ifdef PASS_wholeLobes
+__kernel void wholeLobes(PARAMETERS)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL && luminance(loadVec(specular, frame.planeSize, i)) > 0.0f) {
+            const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
+            const Vec3 v = laneView(&receivers, lane);
+            storeVec(whole, frame.planeSize, i,
+                unshadowedLobe(environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings));
+        }
+    }
+}
+#endif
+
 /// Below it the share of what is hidden is not known of what lights bring: where there are none, nothing is.
 #define WEDGE_LEAST_LIT 1e-30f
 
 /// A channel of the map's whole light with the shadows of the lights: less what they lose, or times the share that is
-/// left of them; or what they bring alone.
-WEDGE_INLINE float withShadows(
-    uint shadows, float complete, float shadowed, float unshadowed, float wideShadowed, float wideUnshadowed)
+/// left of them; or what they bring alone. unlit: what counts of the whole light where no light is that hides.
+WEDGE_INLINE float withShadows(uint shadows, float complete, float shadowed, float unshadowed, float wideShadowed,
+    float wideUnshadowed, float unlit)
 {
     const float all = unshadowed + wideUnshadowed;
-    const float share = all > WEDGE_LEAST_LIT ? (shadowed + wideShadowed) / all : 1.0f;
-    const float less = complete - (unshadowed - shadowed);
-    const float kept = shadows == WEDGE_SHADOWS_SUBTRACTIVE ? less : complete * share;
+    const bool reached = all > WEDGE_LEAST_LIT;
+    const float known = reached ? complete : unlit * complete;
+    const float share = reached ? (shadowed + wideShadowed) / all : 1.0f;
+    const float less = known - (unshadowed - shadowed);
+    const float kept = shadows == WEDGE_SHADOWS_SUBTRACTIVE ? less : known * share;
     return shadows == WEDGE_SHADOWS_ADDITIVE ? shadowed : kept;
 }
 
 /// The same of all channels. sums: six planes of own lobes, and behind them, if widened, six of wider ones.
-WEDGE_FN Vec3 allWithShadows(uint shadows, Vec3 complete, __global const float* sums, uint size, uint i, bool widened)
+WEDGE_FN Vec3 allWithShadows(
+    uint shadows, Vec3 complete, __global const float* sums, uint size, uint i, bool widened, float unlit)
 {
     const Vec3 shadowed = loadVec(sums, size, i), unshadowed = loadVec(sums + 3u * size, size, i);
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     const Vec3 a = widened ? loadVec(sums + 6u * size, size, i) : none;
     const Vec3 u = widened ? loadVec(sums + 9u * size, size, i) : none;
-    return vec3(withShadows(shadows, complete.x, shadowed.x, unshadowed.x, a.x, u.x),
-        withShadows(shadows, complete.y, shadowed.y, unshadowed.y, a.y, u.y),
-        withShadows(shadows, complete.z, shadowed.z, unshadowed.z, a.z, u.z));
+    return vec3(withShadows(shadows, complete.x, shadowed.x, unshadowed.x, a.x, u.x, unlit),
+        withShadows(shadows, complete.y, shadowed.y, unshadowed.y, a.y, u.y, unlit),
+        withShadows(shadows, complete.z, shadowed.z, unshadowed.z, a.z, u.z, unlit));
 }
 
 /// v, none of whose channels is below 0 if they are to be clamped; `below` then says whether one was.
@@ -223,7 +247,8 @@ WEDGE_INLINE Vec3 clampedLight(Vec3 v, uint clamps, bool* below)
 
 /// What surfaces reflect of the map's light.
 ///
-/// in      shadows: WEDGE_SHADOWS_*; rings: of unshadowedLobe(), or 0: the map's whole light is that of all lights;
+/// in      shadows: WEDGE_SHADOWS_*; prefiltered: 0: the map's whole light is that of all lights, 1: `whole` (3 planes,
+///         of lobes) and what harmonics say;
 ///         clamps: 1: it is not below 0; wide: 1: lobeSums have wider lobes; mostRed, mostGreen, mostBlue: what
 ///         unshadowedLight() is a part of, W/m^2; the map, the G-buffer, sums
 /// in out  lit (3 planes, radiance)
@@ -241,12 +266,12 @@ __kernel void combineShadowLights(PARAMETERS)
     const Vec3 n = loadVec(normal, size, i);
     bool below = false;
     Vec3 matt = loadVec(mattSums + 3u * size, size, i);
-    if (rings > 0u) {
-        const Vec3x16 light = unshadowedLight(environment, environmentTable, splat3(n));
+    if (prefiltered != 0u) {
+        const Vec3x16 light = unshadowedFrom(environment, environmentTable, splat3(n), 0.0f);
         const Vec3 most = vecScale(vec3(mostRed, mostGreen, mostBlue), WEDGE_INV_PI);
         matt = vecMul(most, vec3(light.x.s0, light.y.s0, light.z.s0));
     }
-    matt = clampedLight(allWithShadows(shadows, matt, mattSums, size, i, false), clamps, &below);
+    matt = clampedLight(allWithShadows(shadows, matt, mattSums, size, i, false, 0.0f), clamps, &below);
     const Vec3 k = loadVec(diffuse, size, i);
     Vec3 sum = vecMul(matt, k);
     below = below && luminance(k) > 0.0f;
@@ -254,17 +279,13 @@ __kernel void combineShadowLights(PARAMETERS)
     const Vec3 reflectance = loadVec(specular, size, i);
     if (luminance(reflectance) > 0.0f) {
         Vec3 lobe = loadVec(lobeSums + 3u * size, size, i);
-        if (rings > 0u) {
-            const Vec3 v = vecNormalize(vecSub(frame.eye, loadVec(position, size, i)));
-            lobe = unshadowedLobe(environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings);
-        }
-        lobe = clampedLight(allWithShadows(shadows, lobe, lobeSums, size, i, wide != 0u), clamps, &below);
+#if HAS_whole
+        lobe = vecChoose(prefiltered != 0u, loadVec(whole, size, i), lobe);
+#endif
+        lobe = clampedLight(allWithShadows(shadows, lobe, lobeSums, size, i, wide != 0u, 1.0f), clamps, &below);
         sum = vecAdd(sum, vecMul(lobe, reflectance));
     }
 #else
-    (void)frame;
-    (void)position;
-    (void)gloss;
     (void)specular;
     (void)wide;
 #endif

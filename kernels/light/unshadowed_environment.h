@@ -7,27 +7,34 @@
 #include "shared/bsdf.h"
 #include "shared/material.h"
 
-/// Least of what unshadowedLight() returns: harmonics of a small sun go below 0.
+/// Least of what samples are divided by: harmonics of a small sun go below 0.
 #define WEDGE_LEAST_UNSHADOWED 0.0625f
 
-WEDGE_INLINE float16 ofHarmonics(__global const float* c, Vec3x16 n)
+WEDGE_INLINE float16 ofHarmonics(__global const float* c, Vec3x16 n, float least)
 {
     const float16 value = c[0] + c[1] * n.x + c[2] * n.y + c[3] * n.z + c[4] * n.x * n.y + c[5] * n.y * n.z
         + c[6] * n.z * n.x + c[7] * (3.0f * n.z * n.z - 1.0f) + c[8] * (n.x * n.x - n.y * n.y);
-    return min16(max16(value, (float16)(WEDGE_LEAST_UNSHADOWED)), (float16)(1.0f));
+    return min16(max16(value, (float16)(least)), (float16)(1.0f));
 }
 
 /// Irradiance of surfaces of unit normals n over the largest that any normal has, red, green and blue: from
-/// WEDGE_LEAST_UNSHADOWED to 1, smooth, by spherical harmonics of up to the second order (Ramamoorthi and Hanrahan, An
+/// `least` to 1, smooth, by spherical harmonics of up to the second order (Ramamoorthi and Hanrahan, An
 /// Efficient Representation for Irradiance Environment Maps, 2001).
-WEDGE_INLINE Vec3x16 unshadowedLight(__global const EnvironmentMap* environment, __global const float* table, Vec3x16 n)
+WEDGE_INLINE Vec3x16 unshadowedFrom(
+    __global const EnvironmentMap* environment, __global const float* table, Vec3x16 n, float least)
 {
     __global const float* c = table + environmentHarmonics(environment[0].width, environment[0].height);
     Vec3x16 light;
-    light.x = ofHarmonics(c, n);
-    light.y = ofHarmonics(c + WEDGE_HARMONICS, n);
-    light.z = ofHarmonics(c + 2u * WEDGE_HARMONICS, n);
+    light.x = ofHarmonics(c, n, least);
+    light.y = ofHarmonics(c + WEDGE_HARMONICS, n, least);
+    light.z = ofHarmonics(c + 2u * WEDGE_HARMONICS, n, least);
     return light;
+}
+
+/// The same of samples that are divided by it, from WEDGE_LEAST_UNSHADOWED.
+WEDGE_INLINE Vec3x16 unshadowedLight(__global const EnvironmentMap* environment, __global const float* table, Vec3x16 n)
+{
+    return unshadowedFrom(environment, table, n, WEDGE_LEAST_UNSHADOWED);
 }
 
 #ifdef WEDGE_SPECULAR
