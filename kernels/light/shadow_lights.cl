@@ -184,6 +184,9 @@ __kernel void shadowLights(PARAMETERS)
 }
 #endif
 
+/// Levels of the map's averages: chosen under two probes, where 512 directions of a lobe show which they are.
+#define WEDGE_WHOLE_COARSER 1.5f
+
 /// What lobes reflect of the map if nothing hides it, over their specular reflectance.
 /// in      rings: of unshadowedLobe(); specular: 3 planes; the map, receivers
 /// in out  whole: 3 planes, set where something is reflected
@@ -200,7 +203,8 @@ __kernel void wholeLobes(PARAMETERS)
             const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
             const Vec3 v = laneView(&receivers, lane);
             storeVec(whole, frame.planeSize, i,
-                unshadowedLobe(environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings));
+                unshadowedLobe(
+                    environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings, WEDGE_WHOLE_COARSER));
         }
     }
 }

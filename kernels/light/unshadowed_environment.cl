@@ -47,7 +47,7 @@ __kernel void lobesOfPixels(PARAMETERS)
     if (reflects) {
         const Vec3 n = loadVec(normal, p.planeSize, i);
         const Vec3 v = vecNormalize(vecSub(frame.eye, loadVec(position, p.planeSize, i)));
-        light = unshadowedLobe(environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings);
+        light = unshadowedLobe(environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings, 0.0f);
     }
     storeVec(unshadowed, p.planeSize, i, vecMul(light, reflectance));
     whole[i] = luminance(light);

@@ -66,8 +66,10 @@ WEDGE_INLINE void lobeStrata(Lobe lobe, Vec3 n, Vec3 v, uint first, uint rings, 
 
 /// What a surface's lobe reflects of what is beyond the scene if nothing hides it, over its specular reflectance:
 /// 2 rings^2 directions of the lobe, each of which sees the mean over as much as they are apart (Krivanek and Colbert,
-/// Real-Time Shading with Filtered Importance Sampling, 2008).
-WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Vec3 n, Vec3 v, Gloss gloss, uint rings)
+/// Real-Time Shading with Filtered Importance Sampling, 2008). coarser: levels of averages, 0 or
+/// more, each of which is of twice that each way: small lamps do not show which directions there are.
+WEDGE_FN Vec3 unshadowedLobe(
+    EnvironmentMap map, __global const float* table, Vec3 n, Vec3 v, Gloss gloss, uint rings, float coarser)
 {
     const Lobe lobe = lobeOf(gloss);
     const uint spokes = 2u * rings, count = rings * spokes, last = coarseLevels(map.width) - 1u;
@@ -81,7 +83,8 @@ WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Ve
         const float widest = 3.14159265f / (float)WEDGE_COARSE_COLUMNS;
         const float16 squared = 6.28318531f * widest * widest * (float)count * vload16(0, d.pdf);
         float level[16];
-        vstore16(0.5f * log2(max16(squared, (float16)(1.0f))) + 0.5f, 0, level);
+        const float16 fine = 0.5f * log2(max16(squared, (float16)(1.0f))) + (0.5f - coarser);
+        vstore16(max16(fine, (float16)(0.0f)), 0, level);
         int above[2][16], below[2][16]; // of TexelsAround, from where averages begin
         float across[16], down[16];
         for (uint lane = 0u; lane < 16u; ++lane) {
