@@ -41,7 +41,7 @@ TEST_CASE("lights for an environment's shadows are told of in images and reports
     const image::LayeredImage ratio = render({ "--shadows", "ratio" });
     CHECK(told(ratio, "shadows") == "ratio");
     CHECK(told(ratio, "shadowLights") == "40");
-    CHECK(told(ratio, "shadowComplete") == "prefiltered");
+    CHECK(told(ratio, "shadowComplete") == "map");
     CHECK(report()["method"]["shadows"] == "ratio");
     CHECK_FALSE(contains(readAll(place.path() / "r.json"), "clamped_pixels"));
     const image::LayeredImage lights =

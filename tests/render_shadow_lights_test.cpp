@@ -20,7 +20,7 @@ using render::Shadows;
 using render::WholeLight;
 
 /// As filters have no say in this light, by default without any.
-render::Settings with(Shadows shadows, int lights = 30, WholeLight whole = WholeLight::Prefiltered, bool clamp = true)
+render::Settings with(Shadows shadows, int lights = 30, WholeLight whole = WholeLight::Map, bool clamp = true)
 {
     render::Settings s = sized(render::monteCarlo(1), width, height);
     s.environment.shadows = { shadows, lights, whole, clamp };
@@ -221,8 +221,7 @@ TEST_CASE("no light is below 0 but where that is asked for, and pixels that woul
         CHECK(clamped.clampedPixels.value_or(0) > 0);
         CHECK(least(pixels(renderer, "beauty", whole)) >= 0);
         const std::vector<float> kept = pixels(renderer, "beauty", whole);
-        const render::FrameStatistics open =
-            renderer.render(with(Shadows::Subtractive, 12, WholeLight::Prefiltered, false));
+        const render::FrameStatistics open = renderer.render(with(Shadows::Subtractive, 12, WholeLight::Map, false));
         CHECK_FALSE(open.clampedPixels);
         const std::vector<float> below = pixels(renderer, "beauty", whole);
         std::size_t differ = 0;

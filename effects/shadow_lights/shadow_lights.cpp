@@ -1,5 +1,6 @@
 #include "effects/shadow_lights/shadow_lights.h"
 
+#include "effects/shadow_lights/light_tree.h"
 #include "effects/shadow_lights/map_lights.h"
 #include "host/render/sample_slices.h"
 #include "kernels/shared/shadow_lights.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -28,51 +30,89 @@ constexpr std::uint32_t sliceLights = 96;
 /// Of wholeLobes: twice the square of this number of directions of a lobe, whatever the lights.
 constexpr std::uint32_t wholeRings = 16;
 
+/// By so much of the map's mean radiance may what lobes reflect of a part of it be off, about.
+constexpr double leastPart = 3e-3;
+
 /// Sums of lights: shadowed and unshadowed, R G B each.
 constexpr std::uint32_t sumPlanes = 6;
 
-/// The map's whole light is another than that of the lights.
-bool isPrefiltered(const ShadowSettings& s)
+/// What counts as the map's whole light; of those who add up lights these are all there is.
+WholeLight wholeLight(const ShadowSettings& s) { return s.shadows == Shadows::Additive ? WholeLight::Lights : s.whole; }
+
+bool widens(const ShadowSettings& s) { return s.shadows == Shadows::Ratio && s.whole != WholeLight::Lights; }
+
+using NumbersOfMap = std::function<std::vector<float>(const MapPlaces&)>;
+
+/// A list of so many numbers of the frame's map, found when the frame is run.
+graph::Handle<Directions> listOfMap(FrameBuilder& f, const char* name, std::size_t numbers, NumbersOfMap found)
 {
-    return s.whole == WholeLight::Prefiltered && s.shadows != Shadows::Additive;
+    auto list = f.graph.list<Directions>(name, graph::floats, numbers);
+    f.graph.add({ .name = name,
+        .kind = PassKind::Transfer,
+        .arguments = { writes("list", list) },
+        .domain = graph::Domain::Host,
+        .step =
+            [picture = f.description.picture(), found = std::move(found), list](graph::Run& run) {
+                if (!run.rehearsal()) {
+                    run.buffer<float>(list).upload(run.queue(), found(mapPlaces(*picture)));
+                }
+            },
+        .constant = true });
+    return list;
 }
 
-bool widens(const ShadowSettings& s) { return s.shadows == Shadows::Ratio && s.whole == WholeLight::Prefiltered; }
+/// WEDGE_SHADOW_LIGHT_FLOATS of each.
+std::vector<float> numbersOf(const std::vector<MapLight>& lights)
+{
+    std::vector<float> numbers;
+    numbers.reserve(lights.size() * WEDGE_SHADOW_LIGHT_FLOATS);
+    for (const MapLight& light : lights) {
+        for (const glm::vec3& v : { light.towards, light.irradiance }) {
+            numbers.insert(numbers.end(), { v.x, v.y, v.z });
+        }
+    }
+    return numbers;
+}
 
-/// The lights of the frame's map, found when the frame is run.
+/// The lights of the frame's map.
 graph::Handle<Directions> listOfLights(FrameBuilder& f)
 {
     const auto count = static_cast<std::size_t>(f.settings.environment.shadows.lights);
     requirePlaces(*f.description.picture(), count);
-    auto list = f.graph.list<Directions>("lights of the map", graph::floats, count * WEDGE_SHADOW_LIGHT_FLOATS);
-    f.graph.add({ .name = "lights of the map",
-        .kind = PassKind::Transfer,
-        .arguments = { writes("lights", list) },
-        .domain = graph::Domain::Host,
-        .step =
-            [picture = f.description.picture(), count, list](graph::Run& run) {
-                if (run.rehearsal()) {
-                    return;
-                }
-                std::vector<float> numbers;
-                numbers.reserve(count * WEDGE_SHADOW_LIGHT_FLOATS);
-                for (const MapLight& light : mapLights(*picture, count)) {
-                    for (const glm::vec3& v : { light.towards, light.irradiance }) {
-                        numbers.insert(numbers.end(), { v.x, v.y, v.z });
-                    }
-                }
-                run.buffer<float>(list).upload(run.queue(), numbers);
-            },
-        .constant = true });
-    return list;
+    return listOfMap(f, "lights of the map", count * WEDGE_SHADOW_LIGHT_FLOATS,
+        [count](const MapPlaces& places) { return numbersOf(mapLights(places, mapCells(places, count))); });
 }
 
 /// What lights bring to pixels.
 struct Lit {
     graph::Handle<Sums> matt, lobes;
     graph::Handle<Count> taken;
-    graph::Handle<Radiance> whole; ///< of lobes, without shadows; of no graph where it is that of the lights
+    /// Without shadows; of no graph where it is that of the lights or, of matt surfaces, what harmonics say.
+    graph::Handle<Radiance> wholeMatt, wholeLobes;
 };
+
+/// Sums over parts of the map.
+void wholeOfMap(FrameBuilder& f, ReceiverSet& at, Lit& lit)
+{
+    const EnvironmentPicture& picture = *f.description.picture();
+    const PlaceGrid grid = placeGrid(picture.width, picture.height);
+    const std::size_t parts = treeParts(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+    const graph::Handle<Directions> tree = listOfMap(f, "parts of the map", parts * WEDGE_TREE_FLOATS, lightTree);
+    // What happens to lie there in rehearsals is no tree, and might be walked forever.
+    const auto walked = [parts = static_cast<std::uint32_t>(parts)](const graph::Launch& launch) -> std::uint32_t {
+        return launch.run.rehearsal() ? 0 : parts;
+    };
+    lit.wholeMatt = f.graph.plane<Radiance>("whole light of matt surfaces", graph::vectors);
+    lit.wholeLobes = f.graph.plane<Radiance>("whole light of lobes", graph::vectors);
+    f.zero(lit.wholeMatt, lit.wholeLobes);
+    const double everywhere = f.scene != nullptr ? f.description.lights().beyond->irradiance : 0.0;
+    const auto least = static_cast<float>(leastPart * everywhere / (4.0 * std::acos(-1.0)));
+    at.trace("whole light", { program, "wholeLight" },
+        joined({ at.frame(), graph::made("parts", walked), value("least", least), reads("tree", tree) }, at.arguments(),
+            Arguments { reads("specular", f.surfaces.specular), updates("wholeMatt", lit.wholeMatt),
+                updates("whole", lit.wholeLobes) }),
+        [](const graph::Launch&) { return 1000.0; });
+}
 
 /// Lobes see the map as it is. By tiles, since that takes longer than all shadow rays.
 graph::Handle<Radiance> wholeLobes(FrameBuilder& f, ReceiverSet& at)
@@ -98,7 +138,7 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
     const graph::Handle<Directions> lights = listOfLights(f);
     Lit lit { f.graph.plane<Sums>("sums of matt light", graph::floatPlanes(sumPlanes)),
         f.graph.plane<Sums>("sums of lobes' light", graph::floatPlanes(widens(s) ? 2 * sumPlanes : sumPlanes)),
-        f.graph.plane<Count>("lights taken", graph::counts), {} };
+        f.graph.plane<Count>("lights taken", graph::counts), {}, {} };
     f.zero(lit.matt, lit.taken);
     if (f.specular()) {
         f.zero(lit.lobes);
@@ -113,8 +153,10 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
                     updates("mattSums", lit.matt), ofLobes(f, lit.lobes), at.tallyRays() }),
             slices.workUnits(static_cast<double>(count)));
     });
-    if (f.specular() && isPrefiltered(s)) {
-        lit.whole = wholeLobes(f, at);
+    if (wholeLight(s) == WholeLight::Map) {
+        wholeOfMap(f, at, lit);
+    } else if (f.specular() && wholeLight(s) == WholeLight::Prefiltered) {
+        lit.wholeLobes = wholeLobes(f, at);
     }
     return lit;
 }
@@ -126,9 +168,15 @@ Arguments combination(const FrameBuilder& f)
     const std::uint32_t ways[] = { 0u, WEDGE_SHADOWS_ADDITIVE, WEDGE_SHADOWS_SUBTRACTIVE, WEDGE_SHADOWS_RATIO };
     const glm::vec3 most(f.scene != nullptr ? f.description.lights().beyond->mostIrradiance : glm::dvec3(0.0));
     return graph::together("combination",
-        { value("shadows", ways[static_cast<int>(s.shadows)]), value("prefiltered", isPrefiltered(s) ? 1u : 0u),
+        { value("shadows", ways[static_cast<int>(s.shadows)]),
+            value("complete", static_cast<std::uint32_t>(wholeLight(s))),
             value("clamps", s.shadows == Shadows::Subtractive && s.clamp ? 1u : 0u), value("wide", widens(s) ? 1u : 0u),
             value("mostRed", most.r), value("mostGreen", most.g), value("mostBlue", most.b) });
+}
+
+graph::Argument orAbsent(const char* name, graph::Handle<Radiance> plane)
+{
+    return plane.graph != 0 ? reads(name, plane) : graph::absent(name, graph::vectors);
 }
 
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
@@ -143,8 +191,8 @@ void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
                 { reads("normal", seen.normal), reads("diffuse", seen.diffuse), reads("specular", seen.specular) }),
             Arguments { reads("mattSums", lit.matt),
                 f.specular() ? reads("lobeSums", lit.lobes) : graph::absent("lobeSums", graph::floatPlanes(sumPlanes)),
-                lit.whole.graph != 0 ? reads("whole", lit.whole) : graph::absent("whole", graph::vectors),
-                reads("taken", lit.taken), updates("lit", radiance), writes("clamped", clamped) }));
+                orAbsent("wholeMatt", lit.wholeMatt), orAbsent("whole", lit.wholeLobes), reads("taken", lit.taken),
+                updates("lit", radiance), writes("clamped", clamped) }));
     if (s.shadows == Shadows::Subtractive && s.clamp) {
         graph::Handle<Tally>& tally = f.totals.tallies.clamped;
         tally = f.graph.list<Tally>("tally of clamped pixels", tallySums, WEDGE_TALLY_STRIPES);

@@ -282,8 +282,8 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
             o.shadowLights = static_cast<int>(wholeNumber("--shadow-lights", text, 1, render::mostShadowLights));
         });
     addChoice(parser, howGroup, "--shadow-complete", wholeLights,
-        "With --shadows subtractive or ratio, all of the map's light: by harmonics and means of the map, the default, "
-        "or what the lights bring without shadows",
+        "With --shadows subtractive or ratio, all of the map's light: by sums over parts of it, the default; by "
+        "harmonics and means of it; or what the lights bring without shadows",
         o.shadowComplete);
     addValue(parser, howGroup, "--shadow-clamp", "on|off",
         "With --shadows subtractive: whether light that is below 0 becomes 0. Default: on",

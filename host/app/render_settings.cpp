@@ -147,7 +147,7 @@ std::string shadowLights(const RenderOptions& o)
 std::string shadowComplete(const RenderOptions& o)
 {
     return "--shadow-complete "
-        + wholeLights[static_cast<std::size_t>(o.shadowComplete.value_or(render::WholeLight::Prefiltered))];
+        + wholeLights[static_cast<std::size_t>(o.shadowComplete.value_or(render::WholeLight::Map))];
 }
 
 std::string shadowClamp(const RenderOptions& o)

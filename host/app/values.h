@@ -47,7 +47,7 @@ inline const std::vector<std::string> lightSamplings = { "both", "lights", "dire
 inline const std::vector<std::string> temporals = { "off", "on", "published" };
 inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "flt", "corrected" };
 inline const std::vector<std::string> shadows = { "sampled", "additive", "subtractive", "ratio" };
-inline const std::vector<std::string> wholeLights = { "prefiltered", "lights" };
+inline const std::vector<std::string> wholeLights = { "map", "prefiltered", "lights" };
 
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);

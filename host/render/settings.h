@@ -150,6 +150,7 @@ enum class Shadows {
 
 /// What counts as a map's whole light, of which shadows take some.
 enum class WholeLight {
+    Map, ///< sums over parts of the map, as small as each surface needs them (kernels/light/light_tree.h)
     Prefiltered, ///< nine harmonics, and of lobes means over the map (kernels/light/unshadowed_environment.h)
     Lights, ///< what the lights bring without shadows
 };
@@ -158,7 +159,7 @@ enum class WholeLight {
 struct ShadowSettings {
     Shadows shadows = Shadows::Sampled;
     int lights = 40;
-    WholeLight whole = WholeLight::Prefiltered;
+    WholeLight whole = WholeLight::Map;
     bool clamp = true; ///< of Subtractive: no light is below 0
 
     bool operator==(const ShadowSettings&) const = default;

@@ -76,7 +76,8 @@ void describeShadows(const ShadowSettings& s, Descriptions& out)
     out.emplace_back("shadows", shadowsName(s.shadows));
     out.emplace_back("shadowLights", fmt::format("{}", s.lights));
     if (s.shadows != Shadows::Additive) {
-        out.emplace_back("shadowComplete", s.whole == WholeLight::Prefiltered ? "prefiltered" : "lights");
+        constexpr const char* names[] = { "map", "prefiltered", "lights" };
+        out.emplace_back("shadowComplete", names[static_cast<int>(s.whole)]);
     }
     if (s.shadows == Shadows::Subtractive) {
         out.emplace_back("shadowClamp", s.clamp ? "on" : "off");

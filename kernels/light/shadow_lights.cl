@@ -2,6 +2,7 @@
 // with shadows and without, and what that makes of the map's whole light. Both are kept without reflectances, so that
 // textures are none of their business.
 #include "light/light_packet.h"
+#include "light/light_tree.h"
 #include "light/unshadowed_environment.h"
 #include "shared/filter_params.h"
 #include "shared/shadow_lights.h"
@@ -48,54 +49,6 @@ WEDGE_FN void addLight(Vec3 irradiance, const float* weight, const uint* occlude
         }
     }
 }
-
-#ifdef WEDGE_SPECULAR
-/// Lobes of all lanes.
-typedef struct {
-    float exponent[WEDGE_PACKET_SIZE], normalization[WEDGE_PACKET_SIZE], leastCosine[WEDGE_PACKET_SIZE];
-    uint kind[WEDGE_PACKET_SIZE];
-} LobeLanes;
-
-/// The lobe, at least as wide as Phong's of the exponent `widest`. Of microfacets what rises at grazing angles stays.
-WEDGE_FN Lobe widenedLobe(Lobe lobe, float widest)
-{
-    const float most = lobe.kind == WEDGE_PHONG ? widest : 4.0f * widest; // as exponentAs() has it
-    Lobe wide = makeLobe(fmin(lobe.exponent, most), lobe.kind);
-#ifdef WEDGE_GGX
-    wide.normalization = lobe.kind == WEDGE_MICROFACETS ? lobe.normalization : wide.normalization;
-#endif
-    return wide;
-}
-
-/// The lobes of receivers, or with widest above 0 widened.
-WEDGE_FN void lobesOf(const ReceiverPacket* r, float widest, LobeLanes* lobes)
-{
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Lobe own = laneLobe(r, lane);
-        const Lobe lobe = widest > 0.0f ? widenedLobe(own, widest) : own;
-        lobes->exponent[lane] = lobe.exponent;
-        lobes->normalization[lane] = lobe.normalization;
-        lobes->leastCosine[lane] = lobe.leastCosine;
-        lobes->kind[lane] = lobe.kind;
-    }
-}
-
-/// What each lane's lobe reflects of a light's irradiance over its specular reflectance.
-WEDGE_FN void lobeWeights(
-    const ReceiverPacket* r, const LobeLanes* lobes, Vec3 towards, const float* cosine, float* weight)
-{
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        Lobe lobe;
-        lobe.exponent = lobes->exponent[lane];
-        lobe.normalization = lobes->normalization[lane];
-        lobe.leastCosine = lobes->leastCosine[lane];
-        lobe.kind = lobes->kind[lane];
-        const float value = lobeValue(lobe, n, laneView(r, lane), towards);
-        weight[lane] = cosine[lane] > 0.0f ? value * cosine[lane] : 0.0f;
-    }
-}
-#endif
 
 /// Whether a light reaches each lane. Those that face away from it trace no ray.
 WEDGE_FN void traceLight(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
@@ -210,6 +163,50 @@ __kernel void wholeLobes(PARAMETERS)
 }
 #endif
 
+/// What surfaces reflect of all of the map if nothing hides it, over their reflectances.
+/// in      tree: `parts` of the map, see light_tree.h; least: see lobeLight(); specular: 3 planes; receivers
+/// in out  wholeMatt, whole (of lobes): 3 planes each, set where there is a surface
+#include "pass/wholeLight.h"
+#ifdef PASS_wholeLight
+__kernel void wholeLight(PARAMETERS)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    uint shaded[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        shaded[lane] = receivers.pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
+    }
+    MapLanes sum;
+    clearLanes(&sum);
+    mattLight(tree, parts, &receivers, shaded, &sum);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL) {
+            storeVec(wholeMatt, frame.planeSize, i, vecScale(lightOf(&sum, lane), WEDGE_INV_PI));
+        }
+    }
+#ifdef WEDGE_SPECULAR
+    uint reflects[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        reflects[lane] = i != WEDGE_NO_PIXEL && luminance(loadVec(specular, frame.planeSize, i)) > 0.0f ? 1u : 0u;
+    }
+    clearLanes(&sum);
+    lobeLight(tree, parts, &receivers, reflects, least, &sum);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL) {
+            storeVec(whole, frame.planeSize, i, lightOf(&sum, lane));
+        }
+    }
+#else
+    (void)least;
+    (void)specular;
+#endif
+}
+#endif
+
 /// Below it the share of what is hidden is not known of what lights bring: where there are none, nothing is.
 #define WEDGE_LEAST_LIT 1e-30f
 
@@ -251,8 +248,8 @@ WEDGE_INLINE Vec3 clampedLight(Vec3 v, uint clamps, bool* below)
 
 /// What surfaces reflect of the map's light.
 ///
-/// in      shadows: WEDGE_SHADOWS_*; prefiltered: 0: the map's whole light is that of all lights, 1: `whole` (3 planes,
-///         of lobes) and what harmonics say;
+/// in      shadows: WEDGE_SHADOWS_*; complete: WEDGE_COMPLETE_*, the map's whole light: of all lights, of
+///         `whole` (3 planes, of lobes) and what harmonics say, or of `wholeMatt` (3 planes) and `whole`;
 ///         clamps: 1: it is not below 0; wide: 1: lobeSums have wider lobes; mostRed, mostGreen, mostBlue: what
 ///         unshadowedLight() is a part of, W/m^2; the map, the G-buffer, sums
 /// in out  lit (3 planes, radiance)
@@ -270,7 +267,10 @@ __kernel void combineShadowLights(PARAMETERS)
     const Vec3 n = loadVec(normal, size, i);
     bool below = false;
     Vec3 matt = loadVec(mattSums + 3u * size, size, i);
-    if (prefiltered != 0u) {
+#if HAS_wholeMatt
+    matt = vecChoose(complete == WEDGE_COMPLETE_MAP, loadVec(wholeMatt, size, i), matt);
+#endif
+    if (complete == WEDGE_COMPLETE_PREFILTERED) {
         const Vec3x16 light = unshadowedFrom(environment, environmentTable, splat3(n), 0.0f);
         const Vec3 most = vecScale(vec3(mostRed, mostGreen, mostBlue), WEDGE_INV_PI);
         matt = vecMul(most, vec3(light.x.s0, light.y.s0, light.z.s0));
@@ -284,7 +284,7 @@ __kernel void combineShadowLights(PARAMETERS)
     if (luminance(reflectance) > 0.0f) {
         Vec3 lobe = loadVec(lobeSums + 3u * size, size, i);
 #if HAS_whole
-        lobe = vecChoose(prefiltered != 0u, loadVec(whole, size, i), lobe);
+        lobe = vecChoose(complete != WEDGE_COMPLETE_LIGHTS, loadVec(whole, size, i), lobe);
 #endif
         lobe = clampedLight(allWithShadows(shadows, lobe, lobeSums, size, i, wide != 0u, 1.0f), clamps, &below);
         sum = vecAdd(sum, vecMul(lobe, reflectance));

@@ -6,9 +6,20 @@
 /// it.
 #define WEDGE_SHADOW_LIGHT_FLOATS 6u
 
+/// Numbers of each part of the map's light (kernels/light/light_tree.h): irradiance, R G B, W/m^2; unit direction to
+/// the middle of the light; variance of its directions about it along either axis, radians squared; how many parts
+/// there are from this one to the last below it, itself included; the largest angle between the middle and what is in
+/// the part, radians.
+#define WEDGE_TREE_FLOATS 9u
+
 /// How what they bring is put together with the map's whole light: render::Shadows.
 #define WEDGE_SHADOWS_ADDITIVE 1u
 #define WEDGE_SHADOWS_SUBTRACTIVE 2u
 #define WEDGE_SHADOWS_RATIO 3u
+
+/// What counts as the map's whole light: render::WholeLight.
+#define WEDGE_COMPLETE_MAP 0u
+#define WEDGE_COMPLETE_PREFILTERED 1u
+#define WEDGE_COMPLETE_LIGHTS 2u
 
 #endif
