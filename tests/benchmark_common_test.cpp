@@ -1,5 +1,6 @@
 // What the benchmarks compute with: order statistics, error curves, fingerprints, biases, savings.
 #include "benchmarks/common/claims.h"
+#include "benchmarks/common/equal_time.h"
 #include "benchmarks/common/error_curve.h"
 #include "benchmarks/common/fingerprint.h"
 #include "benchmarks/common/image_bias.h"
@@ -47,6 +48,18 @@ TEST_CASE("order statistics")
     CHECK(five.max == 50);
     CHECK(summarize({ 1, 2, 4, 8 }).median == 3);
     CHECK(summarize({ 1, 2, 4, 8 }).q1 == doctest::Approx(1.75));
+}
+
+TEST_CASE("the count of a time is on the line through the two nearest, and in proportion where none rises")
+{
+    const std::vector<CountTime> line = { { 10, 25 }, { 40, 85 }, { 100, 205 } }; // 5 + 2 count
+    CHECK(countOfTime(line, 45) == doctest::Approx(20));
+    CHECK(countOfTime(line, 1005) == doctest::Approx(500));
+    CHECK(countOfTime(line, 85) == doctest::Approx(40));
+    CHECK(countOfTime({ { 10, 20 }, { 20, 40 }, { 100, 1000 } }, 30) == doctest::Approx(15)); // the third is far
+    CHECK(countOfTime({ { 16, 40 } }, 80) == doctest::Approx(32));
+    CHECK(countOfTime({ { 16, 40 }, { 16, 44 } }, 80) == doctest::Approx(16 * 80.0 / 44)); // no line through one count
+    CHECK(countOfTime({ { 10, 40 }, { 20, 30 } }, 60) == doctest::Approx(15)); // noise: more in less time
 }
 
 TEST_CASE("a power law is met exactly between its points and beyond both ends")

@@ -1,5 +1,5 @@
-// The benchmark of filters of samples and of images, run as its users do but tiny: the form of what it writes, and what
-// holds of its numbers whatever a machine is like; never a time.
+// The benchmark of filters of samples and of images, and of shadows by lights, run as its users do but tiny: the form
+// of what it writes, and what holds of its numbers whatever a machine is like; never a time.
 #include "tests/benchmark_testing.h"
 
 #include <cmath>
@@ -164,6 +164,103 @@ TEST_CASE("antialiased, filters that need samples themselves are left out by nam
     CHECK(pointOf(scene, "aaf", 16, "path-density")["filter_ms"] > 0);
 }
 
+std::vector<std::string> tinyShadows(const std::vector<std::string>& more)
+{
+    std::vector<std::string> out = { "shadow-lights", "--quick", "--size", "24x18", "--lights", "15,40",
+        "--reference-spp", "32", "--reference-dir", "references", "--json", "results.json" };
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+}
+
+/// The point of a way and a count that the plan has.
+const Json& shadowPoint(const Json& scene, const std::string& way, int count)
+{
+    const auto found = std::ranges::find_if(scene["points"],
+        [&](const Json& p) { return p["way"] == way && p["count"] == count && p["time_of"].is_null(); });
+    REQUIRE_MESSAGE(found != scene["points"].end(), way);
+    return *found;
+}
+
+void checkShadowPoint(const Json& point)
+{
+    CHECK(keys(point)
+        == std::set<std::string> {
+            "clamped_pixels", "count", "errors", "ms", "rays_per_pixel", "rmse_from_lights", "time_of", "way" });
+    CHECK(keys(point["errors"])
+        == std::set<std::string> { "colour", "display", "energy", "flip", "rmse", "rmse_corrected" });
+    CHECK(point["errors"]["rmse"].get<double>() > 0);
+    CHECK(std::abs(point["errors"]["energy"].get<double>()) < 1);
+    CHECK(point["rmse_from_lights"].get<double>() > 0);
+    CHECK(point["rays_per_pixel"].get<double>() > 1);
+    CHECK(keys(point["ms"]) == std::set<std::string> { "max", "median", "min", "q1", "q3" });
+    CHECK(point["ms"]["median"].get<double>() > 0);
+    CHECK(point["clamped_pixels"].is_number() == (point["way"] == "subtractive"));
+}
+
+TEST_CASE("shadows by lights: every way and count, and what takes as long")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(tinyShadows({ "--scene", "sky_phong500" }));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["benchmark"] == "rendering_filters");
+    CHECK(all["subject"] == "shadow-lights");
+    CHECK(all["plan"]["lights"] == Json({ 15, 40 }));
+    CHECK(all["skipped"].empty());
+    CHECK(all["ways"] == Json({ "additive", "subtractive", "subtractive, not clamped", "ratio" }));
+    REQUIRE(all["scenes"].size() == 1);
+    const Json& scene = all["scenes"][0];
+    CHECK(scene["name"] == "sky_phong500");
+    CHECK(scene["reference"] == "aaf");
+    CHECK(scene["reference_noise"].get<double>() > 0);
+    REQUIRE(scene["points"].size() == 1 + 4 * 2 + 2);
+    for (const Json& point : scene["points"]) {
+        CAPTURE(point["way"]);
+        checkShadowPoint(point);
+        CHECK(contains(outcome.out, point["way"].get<std::string>()));
+    }
+    CHECK(scene["points"][9]["way"] == "mc");
+    CHECK(scene["points"][9]["time_of"] == "aaf");
+    CHECK(scene["points"][10]["way"] == "additive");
+    CHECK(scene["points"][10]["time_of"] == "subtractive");
+    const auto error = [&](const char* way, int count) {
+        return shadowPoint(scene, way, count)["errors"]["rmse"].get<double>();
+    };
+    CHECK(error("additive", 40) < error("additive", 15));
+    CHECK(error("subtractive", 40) < error("subtractive, not clamped", 40));
+    CHECK(shadowPoint(scene, "ratio", 40)["rays_per_pixel"] == shadowPoint(scene, "additive", 40)["rays_per_pixel"]);
+    const std::string name = "rendering_filters.subtractive_sky_phong500.";
+    CHECK(claim(all["claims"], name + "error_vs_additive")["goal"].is_null());
+    CHECK(claim(all["claims"], name + "lights_of_equal_time")["value"] == scene["points"][10]["count"]);
+    CHECK(claim(all["claims"], name + "error_vs_additive_of_equal_lights")["value"]
+        == error("subtractive", 40) / error("additive", 40));
+    CHECK(claim(all["claims"], "rendering_filters.ratio_sky_phong500.error_vs_subtractive")["value"]
+        == error("ratio", 40) / error("subtractive", 40));
+}
+
+TEST_CASE("shadows by lights: maps that are not there are skipped by name, and one way alone has no claims")
+{
+    const Workplace place;
+    ::unsetenv("WEDGE_DATA");
+    const Outcome outcome = place.run(tinyShadows({ "--way", "additive" }));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    CHECK(contains(outcome.out, "skipped, since their maps are not below WEDGE_DATA: grace_matt grace_phong40"));
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["skipped"].size() == 5 * 4);
+    REQUIRE(all["scenes"].size() == 4);
+    for (const Json& scene : all["scenes"]) {
+        CHECK(scene["points"].size() == 1 + 2 + 1);
+    }
+    CHECK(all["claims"].empty());
+    // Read back, all numbers but the times are the same.
+    const Outcome again = place.run(tinyShadows({ "--way", "additive", "--scene", "sky_ggx" }));
+    REQUIRE_MESSAGE(again.status == 0, again.err);
+    CHECK(contains(again.err, "sky_ggx: reference of beauty read"));
+    const Json second = Json::parse(place.text("results.json"));
+    CHECK(shadowPoint(second["scenes"][0], "additive", 40)["errors"]
+        == shadowPoint(all["scenes"][3], "additive", 40)["errors"]);
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;
@@ -180,6 +277,13 @@ TEST_CASE("wrong calls end in one line")
             { { "--size", "24" }, 2, "--size" },
             { { "--bounces", "0" }, 2, "--bounces" },
             { { "--scene", box, "--json", "gone/r.json" }, 1, "gone/r.json" },
+            { { "--spp", "8", "shadow-lights" }, 2, "shadow-lights excludes --spp" },
+            { { "shadow-lights", "--variant", "path-density" }, 2, "--variant" },
+            { { "shadow-lights", "--way", "magic" }, 2,
+                "way of shadows: --way magic: choose among: additive; subtractive" },
+            { { "shadow-lights", "--lights", "0" }, 2, "--lights" },
+            { { "shadow-lights", "--scene", "atlantis" }, 2, "grace_matt, grace_phong40" },
+            { { "shadow-lights", "--scene", box }, 1, "give it an [environment]" },
         });
 }
 

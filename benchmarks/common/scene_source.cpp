@@ -33,6 +33,23 @@ SceneSource shippedScene(const std::string& name, const std::string& origin)
     return { name, origin, file, "" };
 }
 
+SceneSource writtenScene(const std::string& name, const std::string& origin,
+    const std::function<std::string(const std::string& scenes)>& text, const std::string& map)
+{
+    const auto file = [name, text] {
+        const fs::path folder = fs::path(WEDGE_BENCHMARK_DATA) / "scenes";
+        std::error_code failed;
+        fs::create_directories(folder, failed);
+        if (failed) {
+            throw Error("folder for scenes", folder.string(), failed.message());
+        }
+        const fs::path path = folder / (name + ".toml");
+        generator::writeText(path, text((fs::path(WEDGE_SOURCE_DATA) / "scenes").string()));
+        return path.string();
+    };
+    return { name, origin, file, "", map };
+}
+
 SceneSource sceneOfFile(const std::string& path, const std::vector<std::string>& known)
 {
     if (!fs::exists(path)) {

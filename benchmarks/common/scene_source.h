@@ -28,6 +28,10 @@ SceneSource externalScene(
 /// One of data/scenes.
 SceneSource shippedScene(const std::string& name, const std::string& origin);
 
+/// A scene whose file is written when it is used. text: what goes into it, of the path of data/scenes. map: as above.
+SceneSource writtenScene(const std::string& name, const std::string& origin,
+    const std::function<std::string(const std::string& scenes)>& text, const std::string& map = "");
+
 /// A scene file, called by its file name. Throws UsageError, which lists the names of known scenes, where there is
 /// none.
 SceneSource sceneOfFile(const std::string& path, const std::vector<std::string>& known);

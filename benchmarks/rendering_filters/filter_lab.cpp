@@ -12,8 +12,6 @@
 namespace wedge::benchmark {
 namespace {
 
-// Apart from those of what is measured.
-constexpr std::uint32_t referenceSeed = 0x2e5eed;
 constexpr const char* filterPass = "filters of samples";
 constexpr const char* indirectLayer = "indirect";
 
@@ -73,13 +71,8 @@ render::Settings FilterLab::sized(render::Settings settings, std::uint32_t seed)
 
 Truth FilterLab::truth(const std::string& layer)
 {
-    const std::string what = layer.empty() ? "beauty" : layer;
-    Reference made = obtainReference(renderer_, sized(render::monteCarlo(plan_.referenceSpp), referenceSeed),
-        plan_.referenceFolder, name_ + "_" + what, layer);
-    progress("rendering_filters",
-        fmt::format("{}: reference of {} {}, noise {:.6f}{}", name_, what, made.cached ? "read" : "rendered",
-            made.noise, made.otherKernels ? "; kernels have changed since" : ""));
-    return Truth(std::move(made));
+    return obtainTruth(
+        renderer_, sized(render::monteCarlo(plan_.referenceSpp), 0), plan_.referenceFolder, name_, layer);
 }
 
 Denoised FilterLab::denoised(const render::Settings& settings, const render::FrameStatistics& frame)

@@ -1,6 +1,7 @@
 #include "benchmarks/rendering_filters/image_errors.h"
 
 #include "benchmarks/common/image_bias.h"
+#include "benchmarks/common/lab.h"
 #include "host/image/metrics.h"
 
 #include <algorithm>
@@ -8,9 +9,13 @@
 #include <functional>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace wedge::benchmark {
 namespace {
 
+// Apart from those of what is measured.
+constexpr std::uint32_t referenceSeed = 0x2e5eed;
 constexpr double middleGrey = 0.18;
 constexpr double bluestShare = 0.1;
 constexpr double darkest = 0.1; ///< of the median luminance: colours of what is darker are not judged
@@ -91,6 +96,25 @@ ImageErrors Truth::errorsOf(const image::RgbImage& image) const
     out.energy = meanOf(image) / meanOf(reference_.image) - 1.0;
     out.colour = blueOverRed(image) / blueOverRed(reference_.image);
     return out;
+}
+
+Truth obtainTruth(render::Renderer& renderer, render::Settings settings, const std::string& folder,
+    const std::string& scene, const std::string& layer)
+{
+    const std::string what = layer.empty() ? "beauty" : layer;
+    settings.seed = referenceSeed;
+    Reference made = obtainReference(renderer, settings, folder, scene + "_" + what, layer);
+    progress("rendering_filters",
+        fmt::format("{}: reference of {} {}, noise {:.6f}{}", scene, what, made.cached ? "read" : "rendered",
+            made.noise, made.otherKernels ? "; kernels have changed since" : ""));
+    return Truth(std::move(made));
+}
+
+Json dataOf(const ImageErrors& errors)
+{
+    return { { "rmse", number(errors.rmse) }, { "rmse_corrected", number(errors.corrected) },
+        { "display", number(errors.display) }, { "flip", number(errors.flip) }, { "energy", number(errors.energy) },
+        { "colour", number(errors.colour) } };
 }
 
 ImageErrors averaged(const std::vector<ImageErrors>& errors)

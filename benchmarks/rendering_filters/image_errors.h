@@ -1,8 +1,10 @@
 #pragma once
 
+#include "benchmarks/common/claims.h"
 #include "benchmarks/common/references.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace wedge::benchmark {
@@ -37,6 +39,13 @@ private:
     image::RgbImage shown_;
     std::vector<std::size_t> bluest_; ///< pixels
 };
+
+/// The reference of these settings, whose seed is apart from those of what is measured, kept in that folder; a line
+/// says where it came from. scene: its name. layer: as imageOf() has it. Throws Error.
+Truth obtainTruth(render::Renderer& renderer, render::Settings settings, const std::string& folder,
+    const std::string& scene, const std::string& layer = "");
+
+Json dataOf(const ImageErrors& errors);
 
 /// Of several images of one setting: geometric means of errors and of colour, the mean of energy. One or more.
 ImageErrors averaged(const std::vector<ImageErrors>& errors);

@@ -1,25 +1,25 @@
-// rendering_filters: filters of samples and of images against plain means of path-traced light; docs/benchmarks.md.
-#include "benchmarks/common/arguments.h"
+// rendering_filters: filters of samples and of images against plain means of path-traced light, and an environment's
+// light by lights and shadows; docs/benchmarks.md.
 #include "benchmarks/common/program.h"
+#include "benchmarks/rendering_filters/call.h"
 #include "benchmarks/rendering_filters/filter_lab.h"
 #include "benchmarks/rendering_filters/results.h"
-#include "host/image/atomic_file.h"
+#include "benchmarks/rendering_filters/shadow_lights.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cstdio>
 
 namespace {
 
 using namespace wedge;
 using namespace wedge::benchmark;
 
-struct Call {
+/// Of filters of samples and of images.
+struct Call : CommonCall {
     FilterPlan plan;
-    std::vector<std::string> scenes, variants;
-    std::string device, json, size, python = "python3";
+    std::vector<std::string> variants;
+    std::string python = "python3";
 };
 
 /// One of data/scenes/filters.
@@ -56,11 +56,8 @@ std::vector<FilterVariant> variantsOf(const Call& call, std::vector<std::string>
 FilterPlan planOf(const Call& call)
 {
     FilterPlan plan = call.plan;
-    plan.referenceSpp = plan.referenceSpp / 2 * 2;
+    applyCommonOptions(call, plan);
     std::erase(plan.filteredSpp, 0);
-    if (!call.size.empty()) {
-        setSize(plan, call.size);
-    }
     return plan;
 }
 
@@ -84,9 +81,6 @@ Json skeleton(const FilterPlan& plan, const std::vector<FilterVariant>& variants
 int run(const Call& call)
 {
     FilterPlan plan = planOf(call);
-    if (!call.json.empty()) {
-        image::checkWritable(call.json);
-    }
     std::vector<std::string> skipped, missing;
     const std::vector<FilterVariant> variants = variantsOf(call, skipped);
     if (!skipped.empty()) {
@@ -109,11 +103,7 @@ int run(const Call& call)
             lab.indirect().reference().noise, lab.beauty().exposure(), lab.measureAll(variants) };
         addClaims(all, claimsOf(scene));
         all["scenes"].push_back(dataOf(scene));
-        fmt::print("{}\n", tableOf(scene));
-        std::fflush(stdout);
-        if (!call.json.empty()) {
-            writeJson(call.json, all);
-        }
+        tellScene(call, all, tableOf(scene));
     }
     return 0;
 }
@@ -122,12 +112,10 @@ int run(const Call& call)
 
 int main(int argc, char** argv)
 {
-    CLI::App parser("Measures filters of samples and of images against plain means.", "rendering_filters");
+    CLI::App parser("Measures filters of samples and of images against plain means, or what a subcommand says.",
+        "rendering_filters");
     Call call;
-    call.plan.referenceFolder = defaultReferenceFolder();
-    parser.add_option("--scene", call.scenes, "a scene's name or a scene file; again for more (all there are)")
-        ->expected(1)
-        ->take_all();
+    addCommonOptions(parser, call, call.plan);
     parser
         .add_option("--variant", call.variants,
             "a filter as --add-filter of wedge render takes it; again for more (all in the table)")
@@ -142,14 +130,11 @@ int main(int argc, char** argv)
     parser.add_option("--bounces", call.plan.bounces, "of indirect light (3)")
         ->check(CLI::Range(1, render::mostBounces));
     parser.add_flag("--antialias", call.plan.antialias, "samples lie all over their pixels");
-    parser.add_option("--repeats", call.plan.seeds, "images of each setting, with seeds of their own (1)")
-        ->check(CLI::Range(1, 1000));
-    parser.add_option("--size", call.size, "WxH (96x72)");
-    parser.add_option("--reference-spp", call.plan.referenceSpp, "samples of the references (8192)")
-        ->check(CLI::Range(2, 1 << 20));
-    parser.add_option("--reference-dir", call.plan.referenceFolder, "where references are kept (beside this program)");
     parser.add_option("--python", call.python, "an interpreter that has pyoidn, for denoised images (python3)");
-    parser.add_option("--device", call.device, "cpu, gpu, an index, or part of a name");
-    parser.add_option("--json", call.json, "where the results go, rewritten after each scene");
-    return runProgram(parser, argc, argv, [&] { return run(call); });
+    ShadowCall shadows;
+    CLI::App& shadowLights = addShadowLights(parser, shadows);
+    for (CLI::Option* option : parser.get_options([](const CLI::Option* o) { return o->get_name() != "--help"; })) {
+        shadowLights.excludes(option); // it has its own
+    }
+    return runProgram(parser, argc, argv, [&] { return shadowLights.parsed() ? runShadowLights(shadows) : run(call); });
 }

@@ -1,5 +1,6 @@
 #include "effects/shadow_lights/light_tree.h"
 
+#include "host/render/luminance.h"
 #include "kernels/shared/shadow_lights.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace wedge::render {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-
-double luminanceOf(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 /// Of places: columns [left, right) of rows [top, bottom).
 struct Rectangle {

@@ -1,7 +1,7 @@
 #include "effects/shadow_lights/map_lights.h"
 
 #include "host/error.h"
-#include "kernels/shared/bsdf.h"
+#include "host/render/luminance.h"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +22,6 @@ constexpr int levels = 6;
 constexpr double coherent = 0.01;
 
 using Places = std::vector<std::uint32_t>;
-
-double luminanceOf(const glm::dvec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 void requireEnough(std::size_t places, std::size_t lights)
 {

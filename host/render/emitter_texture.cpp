@@ -1,6 +1,7 @@
 #include "host/render/emitter_texture.h"
 
 #include "host/render/emitters.h"
+#include "host/render/luminance.h"
 
 #include <algorithm>
 #include <bit>
@@ -237,8 +238,8 @@ private:
         const std::uint32_t places = columns_ * rows_ < 16 ? 4 : 1;
         const double weight = share * value / (places * places);
         for (std::uint32_t i = 0; i < places * places; ++i) {
-            const double x = (column + (i % places + 0.5) / places) / columns_,
-                         y = (row + (i / places + 0.5) / places) / rows_;
+            const std::uint32_t across = i % places, down = i / places;
+            const double x = (column + (across + 0.5) / places) / columns_, y = (row + (down + 0.5) / places) / rows_;
             SquareMoments& m = out.moments[partOfSquare(s_.pair, x, y)];
             const SquareMoments here { 1, x, y, x * x, x * y, y * y };
             for (std::size_t k = 0; k < here.size(); ++k) {

@@ -1,5 +1,7 @@
 #include "host/render/emitters.h"
 
+#include "host/render/luminance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,8 +15,6 @@ const scene::Material& materialOf(const scene::Scene& scene, std::size_t triangl
 }
 
 } // namespace
-
-float luminanceOf(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t k)
 {

@@ -50,9 +50,6 @@ bool mayEmit(const scene::Scene& scene, std::size_t triangle);
 /// Area of a triangle when the shutter opens, m^2.
 double areaOf(const scene::Geometry& g, std::size_t triangle);
 
-/// Of linear RGB.
-float luminanceOf(glm::vec3 c);
-
 /// Area, m^2, times the luminance of radiance, W/(sr m^2): 0 of what has no area, or more than numbers can hold.
 double powerOf(double area, glm::vec3 radiance);
 

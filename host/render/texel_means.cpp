@@ -1,6 +1,7 @@
 #include "host/render/texel_means.h"
 
 #include "host/render/cutouts.h"
+#include "host/render/luminance.h"
 
 #include <algorithm>
 #include <array>
@@ -85,7 +86,7 @@ TexelMeans::TexelMeans(const scene::Texture& texture, glm::vec3 emission)
     , height_(texture.height)
 {
     static const std::array<double, 256> linear = linearBytes();
-    const glm::dvec3 weights = glm::dvec3(0.2126, 0.7152, 0.0722) * glm::max(glm::dvec3(emission), 0.0);
+    const glm::dvec3 weights = luminanceWeights() * glm::max(glm::dvec3(emission), 0.0);
     const double most = weights.r + weights.g + weights.b;
     const glm::dvec3 share = most > 0 ? weights / most : glm::dvec3(0);
     unit_ = most / wholes;

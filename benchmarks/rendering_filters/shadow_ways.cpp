@@ -1,0 +1,47 @@
+#include "benchmarks/rendering_filters/shadow_ways.h"
+
+#include "host/error.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace wedge::benchmark {
+
+using render::Shadows;
+using render::ShadowSettings;
+
+const std::vector<ShadowWay>& shadowWays()
+{
+    static const std::vector<ShadowWay> all {
+        { additiveWay, [](ShadowSettings& s) { s.shadows = Shadows::Additive; } },
+        { subtractiveWay, [](ShadowSettings& s) { s.shadows = Shadows::Subtractive; } },
+        { "subtractive, not clamped",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Subtractive;
+                s.clamp = false;
+            } },
+        { ratioWay, [](ShadowSettings& s) { s.shadows = Shadows::Ratio; } },
+    };
+    return all;
+}
+
+std::vector<ShadowWay> shadowWays(const std::vector<std::string>& names)
+{
+    const std::vector<ShadowWay>& all = shadowWays();
+    for (const std::string& name : names) {
+        if (std::ranges::find(all, name, &ShadowWay::name) == all.end()) {
+            std::vector<std::string> known(all.size());
+            std::ranges::transform(all, known.begin(), &ShadowWay::name);
+            throw UsageError(
+                "way of shadows", "--way " + name, fmt::format("choose among: {}", fmt::join(known, "; ")));
+        }
+    }
+    std::vector<ShadowWay> out;
+    std::ranges::copy_if(all, std::back_inserter(out),
+        [&](const ShadowWay& way) { return names.empty() || std::ranges::find(names, way.name) != names.end(); });
+    return out;
+}
+
+} // namespace wedge::benchmark
