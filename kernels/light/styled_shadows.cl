@@ -1,0 +1,494 @@
+// Hard shadows of point and directional lights, drawn in a style: what each pixel sees of the light, the edges of the
+// shadow on surfaces, how far from them pixels are, that smoothed, and how much light is left.
+// docs/stylized-shadows.md
+#include "core/lists.h"
+#include "core/vector16.h"
+#include "light/delta_light.h"
+#include "light/light_packet.h"
+#include "shared/filter_params.h"
+#include "shared/styled_shadows.h"
+#include "trace/packet.h"
+
+/// Planes of a format of normals before those of the normals without their maps.
+#define WEDGE_PLANES_BEFORE_float3 0u
+#define WEDGE_PLANES_BEFORE_normal192 3u
+/// Those normals, of a pass's plane `normal`.
+#define WEDGE_UNMAPPED(size) (normal + WEDGE_OF_FORMAT(WEDGE_PLANES_BEFORE, FORMAT_normal) * (size))
+
+/// What each pixel sees of a light: one shadow ray each.
+///
+/// in      frame, BVH, receivers; lights, of which lightIndex is the one
+/// in out  matte: WEDGE_MATTE_*, unknown before; rays
+#include "pass/shadowMatte.h"
+#ifdef PASS_shadowMatte
+__kernel void shadowMatte(PARAMETERS)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    const DeltaLight light = lights[lightIndex];
+    RayPacket packet;
+    float cosine[WEDGE_PACKET_SIZE];
+    uint occluded[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 start = vec3(receivers.originX[lane], receivers.originY[lane], receivers.originZ[lane]);
+        const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
+        const Vec3 toLight = vectorToLight(light, sceneDiameter, start);
+        cosine[lane] = vecDot(n, vecNormalize(toLight));
+        setRay(&packet, lane, start, toLight, 0.0f, cosine[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+        setTime(&packet, lane, receiverTime(&receivers, lane));
+    }
+    anyHits(nodes, blocks, &packet, occluded);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL && cosine[lane] > 0.0f) {
+            rays[i] += 1u;
+            matte[i] = occluded[lane] != 0u ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;
+        }
+    }
+}
+#endif
+
+/// What is seen, and how it is lit: planes of pixels.
+typedef struct {
+    __global const float *position, *normal, *pixelSize, *matte;
+    __global const uint* objectId;
+    uint size; ///< of a plane
+} SeenShadow;
+
+#define WEDGE_SEEN_SHADOW(p)                                                                                           \
+    seenShadow(position, WEDGE_UNMAPPED((p).planeSize), pixelSize, matte, objectId, (p).planeSize)
+
+WEDGE_FN SeenShadow seenShadow(__global const float* position, __global const float* normal,
+    __global const float* pixelSize, __global const float* matte, __global const uint* objectId, uint size)
+{
+    SeenShadow seen;
+    seen.position = position;
+    seen.normal = normal;
+    seen.pixelSize = pixelSize;
+    seen.matte = matte;
+    seen.objectId = objectId;
+    seen.size = size;
+    return seen;
+}
+
+/// Whether two neighbours lie on one surface: of one object, with normals within 45 degrees, and each within a pixel of
+/// the other's plane. So there is no edge between a thing and the floor behind it, whatever they have of the light.
+WEDGE_FN bool onOneSurface(SeenShadow seen, uint i, uint j)
+{
+    const Vec3 n = loadVec(seen.normal, seen.size, i), m = loadVec(seen.normal, seen.size, j);
+    const Vec3 d = vecSub(loadVec(seen.position, seen.size, j), loadVec(seen.position, seen.size, i));
+    const float off = fmax(seen.pixelSize[i], seen.pixelSize[j]);
+    return seen.objectId[i] == seen.objectId[j] && vecDot(n, m) > WEDGE_SURFACE_COSINE && fabs(vecDot(n, d)) <= off
+        && fabs(vecDot(m, d)) <= off;
+}
+
+/// The pieces of edge in a cell, by marching squares. Corners go around it, and side k is between corners k and k + 1.
+typedef struct {
+    uint corner[4]; ///< pixels
+    uint pieces; ///< 0 to 2
+    uint side[4]; ///< two a piece: those that it joins
+} EdgeCell;
+
+/// Of the cell whose first corner is the pixel i.
+WEDGE_FN void findEdges(SeenShadow seen, uint i, uint stride, EdgeCell* cell)
+{
+    cell->corner[0] = i;
+    cell->corner[1] = i + 1u;
+    cell->corner[2] = i + stride + 1u;
+    cell->corner[3] = i + stride;
+    cell->pieces = 0u;
+    uint crossed = 0u;
+    bool known = true;
+    for (uint k = 0u; k < 4u; ++k) {
+        const float here = seen.matte[cell->corner[k]], next = seen.matte[cell->corner[(k + 1u) & 3u]];
+        known = known && here >= 0.0f;
+        if (here != next) {
+            cell->side[crossed] = k;
+            ++crossed;
+        }
+    }
+    if (!known || crossed == 0u) {
+        return;
+    }
+    for (uint k = 0u; k < 4u; ++k) {
+        known = known && onOneSurface(seen, cell->corner[k], cell->corner[(k + 1u) & 3u]);
+    }
+    cell->pieces = known ? crossed / 2u : 0u;
+    if (crossed == 4u && seen.matte[cell->corner[1]] < 0.5f) {
+        // Around the lit corners: shadows that touch are one. Corner k lies between sides k - 1 and k.
+        cell->side[0] = 3u;
+        cell->side[1] = 0u;
+        cell->side[2] = 1u;
+        cell->side[3] = 2u;
+    }
+}
+
+/// The middle of a cell's side.
+WEDGE_FN Vec3 middleOfSide(SeenShadow seen, const EdgeCell* cell, uint side)
+{
+    const Vec3 a = loadVec(seen.position, seen.size, cell->corner[side]);
+    const Vec3 b = loadVec(seen.position, seen.size, cell->corner[(side + 1u) & 3u]);
+    return vecScale(vecAdd(a, b), 0.5f);
+}
+
+/// The cells of a tile: their first corners from (x, y) up to and without (endX, endY).
+#define WEDGE_TILE_OF_CELLS(tile)                                                                                      \
+    const uint cellsX = p.width - 1u, across = max((cellsX + WEDGE_EDGE_TILE - 1u) / WEDGE_EDGE_TILE, 1u);             \
+    const uint x0 = (tile) % across * WEDGE_EDGE_TILE, y0 = (tile) / across * WEDGE_EDGE_TILE;                         \
+    const uint endX = min(x0 + WEDGE_EDGE_TILE, cellsX), endY = min(y0 + WEDGE_EDGE_TILE, p.height - 1u)
+
+/// How many pieces of edge each tile has.
+///
+/// in   p, surfaces, matte; tiles
+/// out  counts: of each
+#include "pass/countEdges.h"
+#ifdef PASS_countEdges
+__kernel void countEdges(PARAMETERS)
+{
+    const uint tile = (uint)get_global_id(0);
+    if (tile >= tiles) {
+        return;
+    }
+    const SeenShadow seen = WEDGE_SEEN_SHADOW(p);
+    WEDGE_TILE_OF_CELLS(tile);
+    EdgeCell cell;
+    uint sum = 0u;
+    for (uint y = y0; y < endY; ++y) {
+        for (uint x = x0; x < endX; ++x) {
+            findEdges(seen, pixelIndex(x, y, p.stride), p.stride, &cell);
+            sum += cell.pieces;
+        }
+    }
+    counts[tile] = sum;
+}
+#endif
+
+/// The pieces themselves, tile by tile and in each row by row: in one order, and so sums over them have the same bits.
+///
+/// in   p, surfaces, matte; tiles; first: of each tile's; capacity: of the list
+/// out  edges: WEDGE_EDGE_FLOATS a piece
+#include "pass/listEdges.h"
+#ifdef PASS_listEdges
+__kernel void listEdges(PARAMETERS)
+{
+    const uint tile = (uint)get_global_id(0);
+    if (tile >= tiles) {
+        return;
+    }
+    const SeenShadow seen = WEDGE_SEEN_SHADOW(p);
+    WEDGE_TILE_OF_CELLS(tile);
+    EdgeCell cell;
+    uint at = first[tile];
+    for (uint y = y0; y < endY; ++y) {
+        for (uint x = x0; x < endX; ++x) {
+            findEdges(seen, pixelIndex(x, y, p.stride), p.stride, &cell);
+            Vec3 n = vec3(0.0f, 0.0f, 0.0f);
+            for (uint k = 0u; cell.pieces > 0u && k < 4u; ++k) {
+                n = vecAdd(n, loadVec(seen.normal, seen.size, cell.corner[k]));
+            }
+            for (uint k = 0u; k < cell.pieces && at < capacity; ++k, ++at) {
+                const Vec3 a = middleOfSide(seen, &cell, cell.side[2u * k]);
+                const Vec3 b = middleOfSide(seen, &cell, cell.side[2u * k + 1u]);
+                const Vec3 middle = vecScale(vecAdd(a, b), 0.5f), m = vecNormalize(n);
+                const float8 piece =
+                    (float8)(middle.x, middle.y, middle.z, m.x, m.y, m.z, vecLength(vecSub(b, a)), 0.0f);
+                vstore8(piece, at, edges);
+            }
+        }
+    }
+}
+#endif
+
+/// Boxes around consecutive pieces, so that far ones need not be looked at one by one.
+///
+/// in   edges; listed[0]: how many, at most `most`
+/// out  boxes: WEDGE_EDGE_BOX numbers each
+#include "pass/boundEdges.h"
+#ifdef PASS_boundEdges
+__kernel void boundEdges(PARAMETERS)
+{
+    const uint chunk = (uint)get_global_id(0), begin = chunk * WEDGE_EDGE_CHUNK;
+    const uint end = min(begin + WEDGE_EDGE_CHUNK, min(listed[0], most));
+    if (begin >= end) {
+        return;
+    }
+    float8 lo = vload8(begin, edges), hi = lo;
+    for (uint k = begin + 1u; k < end; ++k) {
+        const float8 piece = vload8(k, edges);
+        lo = piece < lo ? piece : lo;
+        hi = piece > hi ? piece : hi;
+    }
+    __global float* box = boxes + WEDGE_EDGE_BOX * chunk;
+    vstore3(lo.s012, 0, box);
+    vstore3(hi.s012, 1, box);
+}
+#endif
+
+/// Least squares that distances have to edges, over the square of their unit: the power below overflows at less.
+#define WEDGE_LEAST_SQUARE 1e-9f
+
+/// What a piece of edge adds to the sum of len r^-8 of each lane, in that unit.
+WEDGE_INLINE float16 edgeShare(Vec3x16 at, Vec3x16 n, float8 piece, float perUnit, float reachSquare)
+{
+    const float16 x = piece.s0 - at.x, y = piece.s1 - at.y, z = piece.s2 - at.z;
+    const float16 square = x * x + y * y + z * z;
+    const float16 facing = n.x * piece.s3 + n.y * piece.s4 + n.z * piece.s5;
+    const float16 inverse = 1.0f / max16(square * (perUnit * perUnit), (float16)(WEDGE_LEAST_SQUARE));
+    const float16 squared = inverse * inverse;
+    const float16 share = piece.s6 * perUnit * (squared * squared);
+    const int16 counts = (facing > WEDGE_SURFACE_COSINE) & (square <= reachSquare);
+    return counts ? share : (float16)(0.0f);
+}
+
+/// Whether two boxes are farther apart than a distance, of that square.
+WEDGE_INLINE bool boxesApart(float3 lo, float3 hi, __global const float* box, float square)
+{
+    const float3 otherLo = vload3(0, box), otherHi = vload3(1, box);
+    const float3 d = fmax(fmax(otherLo - hi, lo - otherHi), (float3)(0.0f));
+    return d.x * d.x + d.y * d.y + d.z * d.z > square;
+}
+
+/// The least of the lanes.
+WEDGE_INLINE float leastOf(float16 v) { return -largestOf(-v); }
+
+/// How far pixels are from the shadow's edge: the power mean of thesis (3.2) for p = 8, but of the distances to a
+/// straight edge, so that it is a distance: D = (Phi / K)^(-1/7), Phi the sum of len r^-8.
+///
+/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges; unit: metres, a power of 2; largest: metres,
+///      that is told apart
+/// out  distance: metres, below 0 in shadow, 0 where the matte is unknown
+#include "pass/shadowDistance.h"
+#ifdef PASS_shadowDistance
+__kernel void shadowDistance(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const float16 v = LOAD16_matte(p.planeSize, i);
+    const int16 known = v >= 0.0f;
+    if (!any(known)) {
+        vstore16((float16)(0.0f), 0, distance + i);
+        return;
+    }
+    const Vec3x16 at = loadVecBlock(position, p.planeSize, i);
+    const Vec3x16 n = loadVecBlock(WEDGE_UNMAPPED(p.planeSize), p.planeSize, i);
+    const float16 far = (float16)(3e38f);
+    const float3 lo = (float3)(leastOf(known ? at.x : far), leastOf(known ? at.y : far), leastOf(known ? at.z : far));
+    const float3 hi =
+        (float3)(largestOf(known ? at.x : -far), largestOf(known ? at.y : -far), largestOf(known ? at.z : -far));
+    const float reach = WEDGE_EDGE_REACH * largest, square = reach * reach;
+    const uint count = min(listed[0], most);
+    float16 sum = (float16)(0.0f);
+    for (uint begin = 0u; begin < count; begin += WEDGE_EDGE_CHUNK) {
+        // A little more than what counts, by whatever rounding.
+        if (boxesApart(lo, hi, boxes + WEDGE_EDGE_BOX * (begin / WEDGE_EDGE_CHUNK), 1.0001f * square)) {
+            continue;
+        }
+        const uint end = min(begin + WEDGE_EDGE_CHUNK, count);
+        for (uint k = begin; k < end; ++k) {
+            sum += edgeShare(at, n, vload8(k, edges), 1.0f / unit, square);
+        }
+    }
+    const float16 power = log2Block(sum * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
+    const float16 d = min16(unit * exp2Block(power), (float16)(largest));
+    vstore16(known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);
+}
+#endif
+
+/// Sums of a blur.
+typedef struct {
+    float16 values, weights;
+} SmoothSums;
+
+/// A block of pixels, and planes that its neighbours are in.
+typedef struct {
+    Vec3x16 at, n;
+    uint16 object;
+    float16 perSize; ///< 1 over the side of what a pixel sees, metres
+    float perSquare; ///< 1/m^2: weights are 2^(-perSquare r^2)
+    float square; ///< m^2, as far as which neighbours count
+    __global const float *position, *normal, *pixelSize, *distance;
+    __global const uint* objectId;
+    uint size;
+} SmoothBlock;
+
+/// Adds the neighbours at j to the lanes of `mine`: those on the same object whose normals are within 45 degrees, each
+/// for what it sees of the surface.
+WEDGE_INLINE void addNeighbours(const SmoothBlock* b, int16 mine, int j, SmoothSums* sums)
+{
+    const Vec3x16 d = sub16(loadVecBlock(b->position, b->size, j), b->at);
+    const float16 square = dot16(d, d), facing = dot16(b->n, loadVecBlock(b->normal, b->size, j));
+    const float16 value = loadBlock(b->distance, j), side = loadBlock(b->pixelSize, j) * b->perSize;
+    const int16 counts = mine & (loadIdBlock(b->objectId, j) == b->object) & (facing > WEDGE_SURFACE_COSINE)
+        & (square <= b->square) & (value != 0.0f);
+    const float16 weight = exp2Block(square * -b->perSquare) * side * side;
+    sums->weights += counts ? weight : (float16)(0.0f);
+    sums->values += counts ? weight * value : (float16)(0.0f);
+}
+
+/// Distances, smoothed along surfaces by a Gaussian. Wide ones take every second, fourth ... neighbour: each pixel by
+/// its own width, so that nobody's depends on who is beside it.
+///
+/// in   frame, surfaces; distance: of shadowDistance(); deviation: metres
+/// out  smoothed: metres, 0 where the distance is
+#include "pass/smoothDistance.h"
+#ifdef PASS_smoothDistance
+__kernel void smoothDistance(PARAMETERS)
+{
+    WEDGE_PIXEL(frame, x, y, i);
+    SmoothBlock b;
+    b.size = frame.planeSize;
+    b.position = position;
+    b.normal = WEDGE_UNMAPPED(frame.planeSize);
+    b.pixelSize = pixelSize;
+    b.distance = distance;
+    b.objectId = objectId;
+    b.at = loadVecBlock(position, b.size, i);
+    b.n = loadVecBlock(b.normal, b.size, i);
+    b.object = loadIdBlock(objectId, i);
+    b.perSize = 1.0f / max16(loadBlock(pixelSize, i), (float16)(1e-30f));
+    b.perSquare = 0.72134752f / (deviation * deviation);
+    const float reach = WEDGE_STYLE_CUT * deviation;
+    b.square = reach * reach;
+    const int16 known = loadBlock(distance, i) != 0.0f;
+    // Pixels that it spans on a surface that faces the camera; along others it spans fewer.
+    const float16 depth = max16(dot16(sub16(b.at, splat3(frame.eye)), splat3(frame.forward)), (float16)(1e-20f));
+    const float step = fmin(vecLength(frame.right), vecLength(frame.down));
+    const float16 most = (float16)((float)max(frame.width, frame.height));
+    const float16 radius = known ? min16(reach / (step * depth), most) : (float16)(-1.0f);
+    float16 out = (float16)(0.0f);
+    float done = -0.5f;
+    for (int stride = 1; done < largestOf(radius); stride *= 2) {
+        const int16 mine = (radius > done) & (radius <= (float)(stride * WEDGE_STYLE_TAPS));
+        done = (float)(stride * WEDGE_STYLE_TAPS);
+        if (!any(mine)) {
+            continue;
+        }
+        const int taps = (int)ceil(largestOf(mine ? radius : (float16)(0.0f)) / (float)stride);
+        SmoothSums sums;
+        sums.values = sums.weights = (float16)(0.0f);
+        for (int v = -taps * stride; v <= taps * stride; v += stride) {
+            for (int u = -taps * stride; u <= taps * stride; u += stride) {
+                const int row = (int)y + v, column = (int)x + u;
+                if (row >= 0 && row < (int)frame.height && column > -16 && column < (int)frame.width) {
+                    addNeighbours(&b, mine, i + v * (int)frame.stride + u, &sums);
+                }
+            }
+        }
+        out = mine ? sums.values / max16(sums.weights, (float16)(1e-30f)) : out;
+    }
+    vstore16(out, 0, smoothed + i);
+}
+#endif
+
+/// How much of what is seen lies at each distance, and how much in shadow, m^2: of stripes of rows.
+///
+/// in   p, of the whole image; distance: smoothed; matte, pixelSize; stripes; range: metres that are told apart to
+///      either side of 0
+/// out  areas: WEDGE_AREA_NUMBERS a stripe
+#include "pass/countAreas.h"
+#ifdef PASS_countAreas
+__kernel void countAreas(PARAMETERS)
+{
+    const uint stripe = (uint)get_global_id(0);
+    if (stripe >= stripes) {
+        return;
+    }
+    __global float* own = areas + WEDGE_AREA_NUMBERS * stripe;
+    for (uint k = 0u; k < WEDGE_AREA_NUMBERS; ++k) {
+        own[k] = 0.0f;
+    }
+    const float perClass = 0.5f * (float)WEDGE_AREA_BINS / range;
+    for (uint y = stripe; y < p.height; y += stripes) {
+        for (uint x = 0u; x < p.width; ++x) {
+            const uint i = pixelIndex(x, y, p.stride);
+            const float v = matte[i], area = pixelSize[i] * pixelSize[i];
+            if (v >= 0.0f) {
+                const float at = clamp((distance[i] + range) * perClass, 0.0f, (float)WEDGE_AREA_BINS - 1.0f);
+                own[(uint)at] += area;
+                own[v < 0.5f ? WEDGE_AREA_BINS : WEDGE_AREA_BINS + 1u] += area;
+            }
+        }
+    }
+}
+#endif
+
+/// The distance below which as much lies as was in shadow.
+///
+/// in   areas, stripes, range: as of countAreas(); items: 1
+/// out  zeros: that one number, metres; 0 where all or nothing is in shadow
+#include "pass/keepArea.h"
+#ifdef PASS_keepArea
+__kernel void keepArea(PARAMETERS)
+{
+    if (get_global_id(0) >= items) {
+        return;
+    }
+    float shadow = 0.0f, light = 0.0f;
+    for (uint stripe = 0u; stripe < stripes; ++stripe) {
+        shadow += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS];
+        light += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS + 1u];
+    }
+    zeros[0] = 0.0f;
+    float below = 0.0f;
+    for (uint k = 0u; k < WEDGE_AREA_BINS && shadow > 0.0f && light > 0.0f; ++k) {
+        float here = 0.0f;
+        for (uint stripe = 0u; stripe < stripes; ++stripe) {
+            here += areas[WEDGE_AREA_NUMBERS * stripe + k];
+        }
+        if (below + here >= shadow) {
+            const float at = (float)k + (shadow - below) / here;
+            zeros[0] = at * (2.0f * range / (float)WEDGE_AREA_BINS) - range;
+            return;
+        }
+        below += here;
+    }
+}
+#endif
+
+/// Adds a style's share of light.
+///
+/// in      p; distance: metres, or the matte; offset: what of it is the edge; zeros: and a number more, where there is
+///         one; inflation, softness: metres; red, green, blue: what is left in shadow; weight
+/// in out  share: R G B, of the light
+#include "pass/addStyle.h"
+#ifdef PASS_addStyle
+__kernel void addStyle(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const float d = LOAD_distance(p.planeSize, i) - offset - LOAD_zeros(1u, 0u);
+    // smoothstep() is undefined without a width.
+    const float t = clamp((d - inflation) / fmax(softness, 1e-30f) + 0.5f, 0.0f, 1.0f);
+    const float soft = t * t * (3.0f - 2.0f * t), hard = d > inflation ? 1.0f : 0.0f;
+    const float f = softness > 0.0f ? soft : hard;
+    const Vec3 left = vec3(red, green, blue), rest = vec3(1.0f - red, 1.0f - green, 1.0f - blue);
+    const Vec3 light = vecMad(left, rest, f);
+    STORE_share(p.planeSize, i, vecMad(LOAD_share(p.planeSize, i), light, weight));
+}
+#endif
+
+/// The light of a light whose shadows have a style.
+///
+/// in      frame, receivers, diffuse, specular; lights, of which lightIndex is the one; share: R G B, of it
+/// in out  lit (3 planes, radiance)
+#include "pass/styledLight.h"
+#ifdef PASS_styledLight
+__kernel void styledLight(PARAMETERS)
+{
+    WEDGE_PIXEL(frame, x, y, i);
+    if (objectId[i] == 0u) {
+        return;
+    }
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    const Receiver r = loadReceiver(frame, data, i);
+    const DeltaLight light = lights[lightIndex];
+    const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
+    const float cosine = vecDot(r.normal, vecNormalize(toLight));
+    if (!(cosine > 0.0f)) {
+        return;
+    }
+    const Vec3 all = deltaLightAt(
+        light, r, toLight, cosine, loadVec(diffuse, frame.planeSize, i), loadVec(specular, frame.planeSize, i));
+    const Vec3 left = vecMul(all, LOAD_share(frame.planeSize, i));
+    storeVec(lit, frame.planeSize, i, vecAdd(loadVec(lit, frame.planeSize, i), left));
+}
+#endif
