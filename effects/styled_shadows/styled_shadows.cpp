@@ -158,7 +158,7 @@ private:
         f_.blocks("blur of shadows' edges", PassKind::Filter, { program, "smoothDistance" },
             joined({ f_.frame() }, surfaces(graph::wholeImage),
                 Arguments { reads("distance", distance_, graph::wholeImage), value("deviation", style.abstraction),
-                    writes("smoothed", out.distance) }));
+                    value("largest", mostDistance(light_.styles)), writes("smoothed", out.distance) }));
         if (style.keepArea) {
             out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * style.abstraction);
         }

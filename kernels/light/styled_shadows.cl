@@ -325,10 +325,34 @@ WEDGE_INLINE void addNeighbours(const SmoothBlock* b, int16 mine, int j, SmoothS
     sums->values += counts ? weight * value : (float16)(0.0f);
 }
 
-/// Distances, smoothed along surfaces by a Gaussian. Wide ones take every second, fourth ... neighbour: each pixel by
-/// its own width, so that nobody's depends on who is beside it.
+/// Whole pixels that `reach` metres of a surface span along an image step: the shadow of a disk of that normal.
+/// Surfaces bend, so it is a quarter more, up to that of a disk that faces the camera.
+WEDGE_INLINE float16 pixelsAlong(FrameParams frame, Vec3x16 n, Vec3 step, float16 depth, float reach)
+{
+    const float length = vecLength(step);
+    const float16 along = dot16(n, splat3(step)) / length, away = dot16(n, splat3(frame.forward));
+    const float16 side = min16(1.25f * sqrt(max16(1.0f - along * along, (float16)(0.0f))), (float16)(1.0f));
+    // The nearer end of it is larger.
+    const float16 least = depth - reach * sqrt(max16(1.0f - away * away, (float16)(0.0f)));
+    const float16 pixels = reach * side / (length * max16(least, 0.2f * depth));
+    return floor(min16(pixels, (float16)((float)max(frame.width, frame.height))));
+}
+
+/// The power of 2 that a stride along so many pixels has, so that there are few taps.
+WEDGE_INLINE float16 strideOf(float16 pixels)
+{
+    float16 power = (float16)(0.0f);
+    for (float most = WEDGE_STYLE_TAPS; most < 65536.0f; most *= 2.0f) {
+        power += pixels > most ? (float16)(1.0f) : (float16)(0.0f);
+    }
+    return power;
+}
+
+/// Distances, smoothed along surfaces by a Gaussian. Wide ones take every second, fourth ... neighbour along either
+/// axis: each pixel by its own width, so that nobody's depends on who is beside it. The largest distances stay: nothing
+/// that is told apart is near.
 ///
-/// in   frame, surfaces; distance: of shadowDistance(); deviation: metres
+/// in   frame, surfaces; distance: of shadowDistance(); deviation, largest: metres
 /// out  smoothed: metres, 0 where the distance is
 #include "pass/smoothDistance.h"
 #ifdef PASS_smoothDistance
@@ -349,32 +373,32 @@ __kernel void smoothDistance(PARAMETERS)
     b.perSquare = 0.72134752f / (deviation * deviation);
     const float reach = WEDGE_STYLE_CUT * deviation;
     b.square = reach * reach;
-    const int16 known = loadBlock(distance, i) != 0.0f;
-    // Pixels that it spans on a surface that faces the camera; along others it spans fewer.
     const float16 depth = max16(dot16(sub16(b.at, splat3(frame.eye)), splat3(frame.forward)), (float16)(1e-20f));
-    const float step = fmin(vecLength(frame.right), vecLength(frame.down));
-    const float16 most = (float16)((float)max(frame.width, frame.height));
-    const float16 radius = known ? min16(reach / (step * depth), most) : (float16)(-1.0f);
-    float16 out = (float16)(0.0f);
-    float done = -0.5f;
-    for (int stride = 1; done < largestOf(radius); stride *= 2) {
-        const int16 mine = (radius > done) & (radius <= (float)(stride * WEDGE_STYLE_TAPS));
-        done = (float)(stride * WEDGE_STYLE_TAPS);
-        if (!any(mine)) {
-            continue;
-        }
-        const int taps = (int)ceil(largestOf(mine ? radius : (float16)(0.0f)) / (float)stride);
+    const float16 across = pixelsAlong(frame, b.n, frame.right, depth, reach);
+    const float16 down = pixelsAlong(frame, b.n, frame.down, depth, reach);
+    const float16 kind = strideOf(across) + 32.0f * strideOf(down);
+    float16 out = loadBlock(distance, i);
+    int16 left = (out != 0.0f) & (fabs(out) < largest);
+    while (any(left)) {
+        const float first = largestOf(left ? kind : (float16)(-1.0f));
+        const int16 mine = left & (kind == first);
+        const int stepX = 1 << ((int)first % 32), stepY = 1 << ((int)first / 32);
+        const int tapsX = (int)largestOf(mine ? across : (float16)(0.0f)) / stepX;
+        const int tapsY = (int)largestOf(mine ? down : (float16)(0.0f)) / stepY;
         SmoothSums sums;
         sums.values = sums.weights = (float16)(0.0f);
-        for (int v = -taps * stride; v <= taps * stride; v += stride) {
-            for (int u = -taps * stride; u <= taps * stride; u += stride) {
-                const int row = (int)y + v, column = (int)x + u;
+        for (int v = -tapsY; v <= tapsY; ++v) {
+            const int16 inRow = mine & (down >= fabs((float)(v * stepY)));
+            for (int u = -tapsX; u <= tapsX; ++u) {
+                const int row = (int)y + v * stepY, column = (int)x + u * stepX;
                 if (row >= 0 && row < (int)frame.height && column > -16 && column < (int)frame.width) {
-                    addNeighbours(&b, mine, i + v * (int)frame.stride + u, &sums);
+                    const int16 inReach = inRow & (across >= fabs((float)(u * stepX)));
+                    addNeighbours(&b, inReach, i + v * stepY * (int)frame.stride + u * stepX, &sums);
                 }
             }
         }
         out = mine ? sums.values / max16(sums.weights, (float16)(1e-30f)) : out;
+        left = left & ~mine;
     }
     vstore16(out, 0, smoothed + i);
 }

@@ -24,7 +24,7 @@
 
 /// Of a blur: deviations as far as which it reaches, and taps along an axis to either side, at most.
 #define WEDGE_STYLE_CUT 3.0f
-#define WEDGE_STYLE_TAPS 16
+#define WEDGE_STYLE_TAPS 10
 
 /// Classes of distances that shadows' areas are counted by, over WEDGE_STYLE_CUT deviations of the blur to either side;
 /// and stripes of rows that are counted by themselves. Each has the classes, and behind them what is in shadow and what
