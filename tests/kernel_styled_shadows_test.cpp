@@ -156,6 +156,24 @@ std::vector<Piece> joinedPieces(const std::vector<std::vector<Piece>>& tiles)
     return out;
 }
 
+/// The power mean of the distances to the pieces that count, metres.
+double distanceTo(const std::vector<Piece>& pieces, glm::dvec3 at, glm::dvec3 n, double largest)
+{
+    const auto faces = [&](const Piece& piece) { return glm::dot(piece.normal, n) > std::numbers::sqrt2 / 2; };
+    double nearest = 2 * largest;
+    for (const Piece& piece : pieces)
+        nearest = faces(piece) ? std::min(nearest, glm::length(piece.middle - at)) : nearest;
+    if (nearest == 2 * largest)
+        return largest;
+    double sum = 0;
+    for (const Piece& piece : pieces) {
+        const double r = glm::length(piece.middle - at);
+        sum += faces(piece) && r <= 3 * std::min(nearest, largest) ? piece.length * std::pow(r, -8) : 0;
+    }
+    const double constant = std::sqrt(std::numbers::pi) * std::tgamma(3.5) / std::tgamma(4.0);
+    return std::min(std::pow(sum / constant, -1.0 / 7), largest);
+}
+
 /// Signed distances that stand for those of a shadow: 0 where the matte is unknown.
 std::vector<float> someDistances(const Seen& s)
 {
@@ -295,6 +313,7 @@ TEST_CASE("boundEdges: boxes around 32 pieces each")
         bench.plane("listed", std::vector<std::uint32_t> { count, 0 });
         bench.run();
         const std::vector<float> boxes = bench.read<float>("boxes");
+        const std::size_t room = boxes.size() / WEDGE_EDGE_BOX;
         for (std::size_t chunk = 0; chunk < 6; ++chunk)
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 float lo = 2, hi = -2;
@@ -303,10 +322,10 @@ TEST_CASE("boundEdges: boxes around 32 pieces each")
                     lo = std::min(lo, edges[WEDGE_EDGE_FLOATS * k + axis]);
                     hi = std::max(hi, edges[WEDGE_EDGE_FLOATS * k + axis]);
                 }
-                CHECK(boxes[WEDGE_EDGE_BOX * chunk + axis] == lo);
-                CHECK(boxes[WEDGE_EDGE_BOX * chunk + 3 + axis] == hi);
+                CHECK(boxes[axis * room + chunk] == lo);
+                CHECK(boxes[(3 + axis) * room + chunk] == hi);
             }
-        CHECK(std::all_of(boxes.begin() + 6 * WEDGE_EDGE_BOX, boxes.end(), [](float v) { return v == 0; }));
+        CHECK(std::ranges::count_if(boxes, [](float v) { return v != 0; }) == 6 * WEDGE_EDGE_BOX);
     });
 }
 
@@ -330,7 +349,6 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
         const double largest = double { bench.own<float>("largest") };
         CHECK(largest == doctest::Approx(2 * (inflation + 0.5 * softness + 3 * abstraction)));
         const auto distance = bench.pixels<float>("distance");
-        const double constant = std::sqrt(std::numbers::pi) * std::tgamma(3.5) / std::tgamma(4.0);
         unsigned near = 0, far = 0, differ = 0;
         everyPixel(traced.frame.layout, [&](int x, int y) {
             const float v = s.matte.at(x, y);
@@ -338,13 +356,7 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
                 REQUIRE(distance.at(x, y) == 0);
                 return;
             }
-            double sum = 0;
-            for (const Piece& piece : pieces) {
-                const double r = glm::length(piece.middle - s.position.vector(x, y));
-                if (r <= 3 * largest && glm::dot(piece.normal, s.normal.vector(x, y)) > std::numbers::sqrt2 / 2)
-                    sum += piece.length * std::pow(r, -8);
-            }
-            const double d = sum > 0 ? std::min(std::pow(sum / constant, -1.0 / 7), largest) : largest;
+            const double d = distanceTo(pieces, s.position.vector(x, y), s.normal.vector(x, y), largest);
             const double expected = v > 0.5f ? d : -d;
             differ += std::abs(distance.at(x, y) - expected) <= 1e-4 * largest ? 0 : 1;
             near += d < 0.1 * largest ? 1 : 0;

@@ -114,10 +114,10 @@ private:
         f_.items("edges of shadows", PassKind::Analysis, { program, "listEdges" }, tiles,
             joined(cells,
                 Arguments { reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
-        const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK;
-        auto boxes =
-            f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { chunks } * WEDGE_EDGE_BOX);
-        const Arguments listed { reads("edges", edges), reads("listed", places.listed), unlessEmpty("most", capacity) };
+        const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
+        auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
+        const Arguments listed { reads("edges", edges), reads("listed", places.listed), unlessEmpty("most", capacity),
+            value("room", room) };
         f_.items("edges of shadows", PassKind::Analysis, { program, "boundEdges" }, chunks,
             joined(listed, Arguments { writes("boxes", boxes) }));
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);

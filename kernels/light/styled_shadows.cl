@@ -202,8 +202,8 @@ __kernel void listEdges(PARAMETERS)
 
 /// Boxes around consecutive pieces, so that far ones need not be looked at one by one.
 ///
-/// in   edges; listed[0]: how many, at most `most`
-/// out  boxes: WEDGE_EDGE_BOX numbers each
+/// in   edges; listed[0]: how many, at most `most`; room: boxes that there is room for
+/// out  boxes: WEDGE_EDGE_BOX planes of as many numbers
 #include "pass/boundEdges.h"
 #ifdef PASS_boundEdges
 __kernel void boundEdges(PARAMETERS)
@@ -219,43 +219,154 @@ __kernel void boundEdges(PARAMETERS)
         lo = piece < lo ? piece : lo;
         hi = piece > hi ? piece : hi;
     }
-    __global float* box = boxes + WEDGE_EDGE_BOX * chunk;
-    vstore3(lo.s012, 0, box);
-    vstore3(hi.s012, 1, box);
+    boxes[chunk] = lo.s0;
+    boxes[room + chunk] = lo.s1;
+    boxes[2u * room + chunk] = lo.s2;
+    boxes[3u * room + chunk] = hi.s0;
+    boxes[4u * room + chunk] = hi.s1;
+    boxes[5u * room + chunk] = hi.s2;
 }
 #endif
 
 /// Least squares that distances have to edges, over the square of their unit: the power below overflows at less.
 #define WEDGE_LEAST_SQUARE 1e-9f
 
-/// What a piece of edge adds to the sum of len r^-8 of each lane, in that unit.
-WEDGE_INLINE float16 edgeShare(Vec3x16 at, Vec3x16 n, float8 piece, float perUnit, float reachSquare)
+/// A block of pixels, and the edges that they are near to.
+typedef struct {
+    Vec3x16 at, n;
+    int16 known; ///< lanes whose matte is
+    float3 lo, hi; ///< box around them, metres
+    __global const float *edges, *boxes;
+    uint count, room; ///< edges; boxes that there is room for
+} EdgeBlock;
+
+/// Squares of the distances to a piece of edge.
+WEDGE_INLINE float16 squareTo(const EdgeBlock* b, float8 piece)
 {
-    const float16 x = piece.s0 - at.x, y = piece.s1 - at.y, z = piece.s2 - at.z;
-    const float16 square = x * x + y * y + z * z;
-    const float16 facing = n.x * piece.s3 + n.y * piece.s4 + n.z * piece.s5;
-    const float16 inverse = 1.0f / max16(square * (perUnit * perUnit), (float16)(WEDGE_LEAST_SQUARE));
-    const float16 squared = inverse * inverse;
-    const float16 share = piece.s6 * perUnit * (squared * squared);
-    const int16 counts = (facing > WEDGE_SURFACE_COSINE) & (square <= reachSquare);
-    return counts ? share : (float16)(0.0f);
+    const float16 x = piece.s0 - b->at.x, y = piece.s1 - b->at.y, z = piece.s2 - b->at.z;
+    return x * x + y * y + z * z;
 }
 
-/// Whether two boxes are farther apart than a distance, of that square.
-WEDGE_INLINE bool boxesApart(float3 lo, float3 hi, __global const float* box, float square)
+/// Lanes whose surface faces as that at a piece of edge does.
+WEDGE_INLINE int16 facesAs(const EdgeBlock* b, float8 piece)
 {
-    const float3 otherLo = vload3(0, box), otherHi = vload3(1, box);
-    const float3 d = fmax(fmax(otherLo - hi, lo - otherHi), (float3)(0.0f));
-    return d.x * d.x + d.y * d.y + d.z * d.z > square;
+    return b->n.x * piece.s3 + b->n.y * piece.s4 + b->n.z * piece.s5 > WEDGE_SURFACE_COSINE;
+}
+
+/// The squares of the distances between a block's box and those of 16 chunks of edges, a little less by whatever
+/// rounding; of chunks beyond the last one infinite.
+WEDGE_INLINE float16 boxSquares(const EdgeBlock* b, uint chunk)
+{
+    __global const float *lo = b->boxes + chunk, *hi = lo + 3u * b->room;
+    const float16 none = (float16)(0.0f);
+    const float16 x = max16(max16(vload16(0, lo) - b->hi.x, b->lo.x - vload16(0, hi)), none);
+    const float16 y = max16(max16(vload16(0, lo + b->room) - b->hi.y, b->lo.y - vload16(0, hi + b->room)), none);
+    const float16 z =
+        max16(max16(vload16(0, lo + 2u * b->room) - b->hi.z, b->lo.z - vload16(0, hi + 2u * b->room)), none);
+    const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const int chunks = (int)((b->count + WEDGE_EDGE_CHUNK - 1u) / WEDGE_EDGE_CHUNK);
+    return (int)chunk + lane < chunks ? 0.9999f * (x * x + y * y + z * z) : (float16)(INFINITY);
 }
 
 /// The least of the lanes.
 WEDGE_INLINE float leastOf(float16 v) { return -largestOf(-v); }
 
+WEDGE_FN void boundBlock(EdgeBlock* b)
+{
+    const float16 far = (float16)(3e38f);
+    b->lo = (float3)(leastOf(b->known ? b->at.x : far), leastOf(b->known ? b->at.y : far),
+        leastOf(b->known ? b->at.z : far));
+    b->hi = (float3)(largestOf(b->known ? b->at.x : -far), largestOf(b->known ? b->at.y : -far),
+        largestOf(b->known ? b->at.z : -far));
+}
+
+/// The squares of the distances to the nearest edges of 16 chunks, where they are less than `nearest`.
+WEDGE_INLINE float16 nearestOfChunks(const EdgeBlock* b, uint chunk, float16 nearest)
+{
+    float squares[16];
+    vstore16(boxSquares(b, chunk), 0, squares);
+    for (uint k = 0u; k < 16u; ++k) {
+        if (squares[k] > largestOf(nearest)) {
+            continue;
+        }
+        const uint begin = (chunk + k) * WEDGE_EDGE_CHUNK, end = min(begin + WEDGE_EDGE_CHUNK, b->count);
+        for (uint i = begin; i < end; ++i) {
+            const float8 piece = vload8(i, b->edges);
+            const float16 square = squareTo(b, piece);
+            nearest = facesAs(b, piece) & (square < nearest) ? square : nearest;
+        }
+    }
+    return nearest;
+}
+
+/// The same of all edges, up to `most`.
+WEDGE_FN float16 nearestSquare(const EdgeBlock* b, float most)
+{
+    const uint step = 16u * WEDGE_EDGE_CHUNK;
+    uint first = 0u;
+    float least = most;
+    for (uint begin = 0u; begin < b->count; begin += step) {
+        const float square = leastOf(boxSquares(b, begin / WEDGE_EDGE_CHUNK));
+        first = square < least ? begin : first;
+        least = fmin(square, least);
+    }
+    float16 nearest = b->known ? (float16)(most) : (float16)(-1.0f);
+    if (least >= most) {
+        return nearest;
+    }
+    // With what is near there is little to be seen of the others.
+    nearest = nearestOfChunks(b, first / WEDGE_EDGE_CHUNK, nearest);
+    for (uint begin = 0u; begin < b->count; begin += step) {
+        if (begin != first && leastOf(boxSquares(b, begin / WEDGE_EDGE_CHUNK)) <= largestOf(nearest)) {
+            nearest = nearestOfChunks(b, begin / WEDGE_EDGE_CHUNK, nearest);
+        }
+    }
+    return nearest;
+}
+
+/// Adds the sum of len r^-8 over a chunk of edges within a reach of each lane, in units of 1 / perUnit metres, one by
+/// one: what chunks they are in does not show in the sum's bits.
+WEDGE_INLINE float16 addChunk(const EdgeBlock* b, uint chunk, float perUnit, float16 reachSquare, float16 sum)
+{
+    const uint begin = chunk * WEDGE_EDGE_CHUNK, end = min(begin + WEDGE_EDGE_CHUNK, b->count);
+    for (uint k = begin; k < end; ++k) {
+        const float8 piece = vload8(k, b->edges);
+        const float16 square = squareTo(b, piece);
+        const float16 inverse = 1.0f / max16(square * (perUnit * perUnit), (float16)(WEDGE_LEAST_SQUARE));
+        const float16 squared = inverse * inverse;
+        const int16 counts = facesAs(b, piece) & (square <= reachSquare);
+        sum += counts ? piece.s6 * perUnit * (squared * squared) : (float16)(0.0f);
+    }
+    return sum;
+}
+
+/// That sum over all edges.
+WEDGE_FN float16 edgeSum(const EdgeBlock* b, float perUnit, float16 reachSquare)
+{
+    const float most = largestOf(reachSquare);
+    float16 sum = (float16)(0.0f);
+    float squares[16];
+    for (uint begin = 0u; begin < b->count; begin += 16u * WEDGE_EDGE_CHUNK) {
+        const float16 all = boxSquares(b, begin / WEDGE_EDGE_CHUNK);
+        if (!any(all <= most)) {
+            continue;
+        }
+        vstore16(all, 0, squares);
+        for (uint k = 0u; k < 16u; ++k) {
+            if (squares[k] <= most) {
+                sum = addChunk(b, begin / WEDGE_EDGE_CHUNK + k, perUnit, reachSquare, sum);
+            }
+        }
+    }
+    return sum;
+}
+
 /// How far pixels are from the shadow's edge: the power mean of thesis (3.2) for p = 8, but of the distances to a
-/// straight edge, so that it is a distance: D = (Phi / K)^(-1/7), Phi the sum of len r^-8.
+/// straight edge, so that it is a distance: D = (Phi / K)^(-1/7), Phi the sum of len r^-8. Edges count within so many
+/// times the distance of the nearest one, or of the largest that is told apart.
 ///
-/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges; unit: metres, a power of 2; largest: metres,
+/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; unit: metres, a power of 2;
+/// largest: metres,
 ///      that is told apart
 /// out  distance: metres, below 0 in shadow, 0 where the matte is unknown
 #include "pass/shadowDistance.h"
@@ -263,34 +374,32 @@ WEDGE_INLINE float leastOf(float16 v) { return -largestOf(-v); }
 __kernel void shadowDistance(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
+    EdgeBlock b;
     const float16 v = LOAD16_matte(p.planeSize, i);
-    const int16 known = v >= 0.0f;
-    if (!any(known)) {
+    b.known = v >= 0.0f;
+    if (!any(b.known)) {
         vstore16((float16)(0.0f), 0, distance + i);
         return;
     }
-    const Vec3x16 at = loadVecBlock(position, p.planeSize, i);
-    const Vec3x16 n = loadVecBlock(WEDGE_UNMAPPED(p.planeSize), p.planeSize, i);
-    const float16 far = (float16)(3e38f);
-    const float3 lo = (float3)(leastOf(known ? at.x : far), leastOf(known ? at.y : far), leastOf(known ? at.z : far));
-    const float3 hi =
-        (float3)(largestOf(known ? at.x : -far), largestOf(known ? at.y : -far), largestOf(known ? at.z : -far));
-    const float reach = WEDGE_EDGE_REACH * largest, square = reach * reach;
-    const uint count = min(listed[0], most);
-    float16 sum = (float16)(0.0f);
-    for (uint begin = 0u; begin < count; begin += WEDGE_EDGE_CHUNK) {
-        // A little more than what counts, by whatever rounding.
-        if (boxesApart(lo, hi, boxes + WEDGE_EDGE_BOX * (begin / WEDGE_EDGE_CHUNK), 1.0001f * square)) {
-            continue;
-        }
-        const uint end = min(begin + WEDGE_EDGE_CHUNK, count);
-        for (uint k = begin; k < end; ++k) {
-            sum += edgeShare(at, n, vload8(k, edges), 1.0f / unit, square);
-        }
+    b.at = loadVecBlock(position, p.planeSize, i);
+    b.n = loadVecBlock(WEDGE_UNMAPPED(p.planeSize), p.planeSize, i);
+    b.edges = edges;
+    b.boxes = boxes;
+    b.count = min(listed[0], most);
+    b.room = room;
+    boundBlock(&b);
+    // An edge all around is nearer in the mean than at its nearest, but not by half.
+    const float square = largest * largest, beyond = 4.0f * square;
+    const float16 nearest = nearestSquare(&b, beyond);
+    const int16 near = b.known & (nearest < beyond);
+    const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
+    float16 d = (float16)(largest);
+    if (any(near)) {
+        const float16 sum = edgeSum(&b, 1.0f / unit, near ? reach : (float16)(-1.0f));
+        const float16 power = log2Block(sum * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
+        d = near ? min16(unit * exp2Block(power), d) : d;
     }
-    const float16 power = log2Block(sum * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
-    const float16 d = min16(unit * exp2Block(power), (float16)(largest));
-    vstore16(known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);
+    vstore16(b.known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);
 }
 #endif
 
