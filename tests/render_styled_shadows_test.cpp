@@ -188,6 +188,36 @@ TEST_CASE("distances to a circle are those of its closed form")
     });
 }
 
+TEST_CASE("as published, distances are means over the whole edge, which are less")
+{
+    onEveryDevice([](const device::Device& device) {
+        const double radius = 0.45, length = 2 * std::numbers::pi * radius;
+        scene::Scene scene = disk(static_cast<float>(radius));
+        scene.directionalLights.front().styles = { style(0.15f, 0.1f) };
+        render::Renderer renderer(scene, device, renderOptions());
+        renderPixels(renderer, sized(render::asPublished(), width, height), true);
+        const std::vector<float> d = pixels(renderer, "shadowDistance.1", { 0, 0, width, height });
+        std::size_t compared = 0;
+        double mean = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+                const double rho = std::hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height) * pixel;
+                if (std::abs(rho - radius) < 4 * pixel)
+                    continue;
+                // Of the sum, by what the other has made of it.
+                const double constant = std::sqrt(std::numbers::pi) * std::tgamma(3.5) / std::tgamma(4.0);
+                const double phi = constant * std::pow(toCircle(radius, rho), -7);
+                const double expected = std::min(std::pow(phi / length, -1.0 / 8), 2 * (0.15 + 0.05));
+                REQUIRE(std::abs(d[i]) == doctest::Approx(expected).epsilon(0.15));
+                mean += std::abs(d[i]) / expected - 1;
+                ++compared;
+            }
+        CHECK(compared > 10000);
+        CHECK(std::abs(mean / static_cast<double>(compared)) < 0.005);
+    });
+}
+
 TEST_CASE("a style that changes nothing has the bits of none, and so has a scene whose styles are left out")
 {
     onEveryDevice([](const device::Device& device) {

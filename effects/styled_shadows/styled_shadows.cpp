@@ -123,7 +123,9 @@ private:
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
         f_.blocks("distances to shadows' edges", PassKind::Analysis, { program, "shadowDistance" },
             joined({ f_.rectangle(f_.analysisParams()) }, surfaces(), Arguments { reads("matte", matte_) },
-                graph::together("edges", joined(listed, Arguments { reads("boxes", boxes) })),
+                graph::together("edges",
+                    joined(listed,
+                        Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),
                 Arguments {
                     value("unit", unitOf(largest)), value("largest", largest), writes("distance", distance_) }));
     }

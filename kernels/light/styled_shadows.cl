@@ -361,12 +361,24 @@ WEDGE_FN float16 edgeSum(const EdgeBlock* b, float perUnit, float16 reachSquare)
     return sum;
 }
 
+/// The length of all edges that count for each lane, whatever their distance, in those units.
+WEDGE_FN float16 edgeLength(const EdgeBlock* b, float perUnit)
+{
+    float16 sum = (float16)(0.0f);
+    for (uint k = 0u; k < b->count; ++k) {
+        const float8 piece = vload8(k, b->edges);
+        sum += facesAs(b, piece) ? (float16)(piece.s6 * perUnit) : (float16)(0.0f);
+    }
+    return sum;
+}
+
 /// How far pixels are from the shadow's edge: the power mean of thesis (3.2) for p = 8, but of the distances to a
 /// straight edge, so that it is a distance: D = (Phi / K)^(-1/7), Phi the sum of len r^-8. Edges count within so many
-/// times the distance of the nearest one, or of the largest that is told apart.
+/// times the distance of the nearest one, or of the largest that is told apart. As published all of them count, and the
+/// mean is over their length: D = (Phi / length)^(-1/8).
 ///
-/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; unit: metres, a power of 2;
-/// largest: metres,
+/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; published: 1 or 0; unit:
+/// metres, a power of 2; largest: metres,
 ///      that is told apart
 /// out  distance: metres, below 0 in shadow, 0 where the matte is unknown
 #include "pass/shadowDistance.h"
@@ -388,13 +400,17 @@ __kernel void shadowDistance(PARAMETERS)
     b.count = min(listed[0], most);
     b.room = room;
     boundBlock(&b);
-    // An edge all around is nearer in the mean than at its nearest, but not by half.
-    const float square = largest * largest, beyond = 4.0f * square;
-    const float16 nearest = nearestSquare(&b, beyond);
-    const int16 near = b.known & (nearest < beyond);
-    const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
     float16 d = (float16)(largest);
-    if (any(near)) {
+    if (published != 0u) {
+        const float16 sum = edgeSum(&b, 1.0f / unit, (float16)(3e38f));
+        const float16 mean = sum / max16(edgeLength(&b, 1.0f / unit), (float16)(1e-30f));
+        d = min16(unit * exp2Block(log2Block(mean) * (-1.0f / 8.0f)), d);
+    } else {
+        // An edge all around is nearer in the mean than at its nearest, but not by half.
+        const float square = largest * largest, beyond = 4.0f * square;
+        const float16 nearest = nearestSquare(&b, beyond);
+        const int16 near = b.known & (nearest < beyond);
+        const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
         const float16 sum = edgeSum(&b, 1.0f / unit, near ? reach : (float16)(-1.0f));
         const float16 power = log2Block(sum * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
         d = near ? min16(unit * exp2Block(power), d) : d;
