@@ -28,11 +28,13 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a light")
 {
-    const Scene one = load(sun + "[[light.style]]\n");
+    const Scene one = load(sun + "[[light.style]]\ninflation = 2\n");
     REQUIRE(one.directionalLights.size() == 1);
     CHECK(one.directionalLights[0].name == "sun");
     REQUIRE(one.directionalLights[0].styles.size() == 1);
-    CHECK(one.directionalLights[0].styles[0] == wedge::scene::ShadowStyle());
+    wedge::scene::ShadowStyle inflated;
+    inflated.inflation = 2;
+    CHECK(one.directionalLights[0].styles[0] == inflated);
     const Scene two = load("[[light]]\ntype = 'point'\nposition = [0, 1, 0]\nintensity = 1\n"
                            "[[light.style]]\nweight = 0.25\ninflation = -0.5\nsoftness = 0.125\nabstraction = 2\n"
                            "brightness = [0, 0.5, 1]\nkeep_area = false\n"
@@ -42,7 +44,12 @@ TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a l
     CHECK(two.pointLights[0].styles[0]
         == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, { 0, 0.5f, 1 }, false });
     CHECK(two.pointLights[0].styles[1].brightness == glm::vec3(0.5f));
+    // What changes nothing is none.
     CHECK(load(sun).directionalLights[0].styles.empty());
+    CHECK(load(sun + "[[light.style]]\nkeep_area = false\n").directionalLights[0].styles.empty());
+    CHECK(load(sun + "[[light.style]]\nweight = 0.5\n[[light.style]]\nweight = 0.5\n")
+              .directionalLights[0]
+              .styles.empty());
 }
 
 TEST_CASE("what is wrong in a style is told with its place")

@@ -120,9 +120,11 @@ private:
             value("room", room) };
         f_.items("edges of shadows", PassKind::Analysis, { program, "boundEdges" }, chunks,
             joined(listed, Arguments { writes("boxes", boxes) }));
+        const Arguments facing = graph::together(
+            "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
         f_.blocks("distances to shadows' edges", PassKind::Analysis, { program, "shadowDistance" },
-            joined({ f_.rectangle(f_.analysisParams()) }, surfaces(), Arguments { reads("matte", matte_) },
+            joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_) },
                 graph::together("edges",
                     joined(listed,
                         Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),

@@ -99,7 +99,13 @@ ShadowStyle readStyle(TableReader& table, bool several)
     return style;
 }
 
-/// Those of a light whose shadows are hard.
+bool changesNothing(const ShadowStyle& style)
+{
+    return style.inflation == 0.0f && style.softness == 0.0f && style.abstraction == 0.0f
+        && style.brightness == glm::vec3(0.0f);
+}
+
+/// Those of a light whose shadows are hard; none where they change nothing, whatever their weights.
 std::vector<ShadowStyle> readStyles(TableReader& light)
 {
     std::vector<TableReader> tables = light.tables("style");
@@ -113,6 +119,8 @@ std::vector<ShadowStyle> readStyles(TableReader& light)
     if (!styles.empty() && !(std::abs(sum - 1.0) <= weightsOff))
         light.fail("style", "has weights that do not add up to 1", fmt::format("{:g}", sum),
             "give each its share of the light");
+    if (std::ranges::all_of(styles, changesNothing))
+        styles.clear();
     return styles;
 }
 

@@ -293,7 +293,7 @@ WEDGE_INLINE float16 nearestOfChunks(const EdgeBlock* b, uint chunk, float16 nea
         for (uint i = begin; i < end; ++i) {
             const float8 piece = vload8(i, b->edges);
             const float16 square = squareTo(b, piece);
-            nearest = facesAs(b, piece) & (square < nearest) ? square : nearest;
+            nearest = (facesAs(b, piece) & (square < nearest)) ? square : nearest;
         }
     }
     return nearest;
@@ -377,9 +377,8 @@ WEDGE_FN float16 edgeLength(const EdgeBlock* b, float perUnit)
 /// times the distance of the nearest one, or of the largest that is told apart. As published all of them count, and the
 /// mean is over their length: D = (Phi / length)^(-1/8).
 ///
-/// in   p, surfaces, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; published: 1 or 0; unit:
-/// metres, a power of 2; largest: metres,
-///      that is told apart
+/// in   p, position, normal, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; published: 1 or 0;
+///      unit: metres, a power of 2; largest: metres, that is told apart
 /// out  distance: metres, below 0 in shadow, 0 where the matte is unknown
 #include "pass/shadowDistance.h"
 #ifdef PASS_shadowDistance
