@@ -47,7 +47,7 @@ struct Traced {
         matte.run();
     }
     /// What a pass reads of surfaces, and of the light if it reads that.
-    void give(PassBench& pass)
+    void give(PassBench& pass) const
     {
         for (const char* name : { "position", "normal", "pixelSize" })
             if (pass.has(name))
