@@ -6,12 +6,14 @@
 #include "effects/indirect/indirect_light.h"
 #include "effects/mirrors/mirrors.h"
 #include "effects/shadow_lights/shadow_lights.h"
+#include "effects/styled_shadows/styled_shadows.h"
 
 namespace wedge::render {
 namespace {
 
 const Registration ofAreaLights(areaLights());
 const Registration ofDeltaLights(deltaLights());
+const Registration ofStyledShadows(styledShadows());
 const Registration ofEmitters(emitters());
 const Registration ofEnvironment(environment());
 const Registration ofShadowLights(shadowLights());

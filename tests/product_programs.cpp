@@ -133,6 +133,23 @@ bool ofFrames(render::Renderer& renderer, const OfFrame& visit)
     return true;
 }
 
+/// The same of frames whose lights' shadows have a style, which those of several receivers a pixel cannot.
+bool ofStyles(const device::Device& device, const OfFrame& visit)
+{
+    const scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/styled.toml");
+    for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
+        render::Options options;
+        options.traversal = family;
+        render::Renderer renderer(scene, device, options);
+        Settings settings = render::monteCarlo(1);
+        settings.width = settings.height = 16;
+        if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool everyFrame(const device::Device& device, const OfFrame& visit)
 {
     for (const char* name : { "penumbra", "materials", "motion", "sky", "mirrors" }) {
@@ -146,7 +163,7 @@ bool everyFrame(const device::Device& device, const OfFrame& visit)
             }
         }
     }
-    return true;
+    return ofStyles(device, visit);
 }
 
 /// Calls visit() for frames that are filtered over time; one that is not antialiased sees no mirrors.

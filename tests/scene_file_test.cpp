@@ -177,7 +177,7 @@ TEST_CASE("unknown keys are told with their place and the nearest known key")
         == "scene file s.toml:3:3: unknown key in image: 'widht': did you mean 'width'?");
     CHECK(contains(error("[cameras]\n"), "s.toml:1:2: unknown key in the scene: 'cameras': did you mean 'camera'?"));
     CHECK(contains(error("[[light]]\ntype='point'\nposition=[0,0,0]\nintensity=1\nprofile='uniform'\n"),
-        "s.toml:5:1: unknown key in light: 'profile': use one of: intensity, key, position, type"));
+        "s.toml:5:1: unknown key in light: 'profile': use one of: intensity, key, name, position, style, type"));
     CHECK(contains(error(mesh + "colour = 1\n"), "unknown key in mesh: 'colour'"));
     CHECK(contains(error(mesh + "instances = [{ translate = [1, 0, 0] }]\n"), "unknown key in mesh.instances"));
     CHECK(contains(error("[[material]]\nname='a'\ndifuse=1\n"), "did you mean 'diffuse'?"));

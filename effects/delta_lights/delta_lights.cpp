@@ -1,5 +1,7 @@
 #include "effects/delta_lights/delta_lights.h"
 
+#include "effects/styled_shadows/styled_lights.h"
+
 namespace wedge::render {
 
 using graph::reads;
@@ -10,13 +12,14 @@ namespace {
 
 constexpr const char* program = "light/delta_lights.cl";
 
-/// The lights, as the kernel takes them.
+/// The lights, as the kernel takes them: all, or those whose shadows have no style.
 std::vector<graph::Argument> lights(const FrameBuilder& f)
 {
+    const bool all = !f.settings.styles;
+    const std::uint32_t count = f.scene == nullptr ? 0u : all ? f.scene->deltaLightCount : f.scene->plainLightCount;
     return graph::together("lights",
-        { f.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
-            value("lightCount", f.scene != nullptr ? f.scene->deltaLightCount : 0u),
-            value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) });
+        { f.ofScene("lights", "DeltaLight", all ? &DeviceScene::deltaLights : &DeviceScene::plainLights),
+            value("lightCount", count), value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) });
 }
 
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
@@ -34,7 +37,8 @@ public:
 
     std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || (scene.pointLights.empty() && scene.directionalLights.empty())) {
+        const std::size_t all = scene.pointLights.size() + scene.directionalLights.size();
+        if (settings.integrator != Integrator::Path || all == styledLights(settings, scene).size()) {
             return std::nullopt;
         }
         return Unfiltered { .name = "point lights", .workUnits = 1, .sample = sample };

@@ -107,6 +107,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         ->allow_extra_args(false)
         ->group(whatGroup);
     parser.add_flag("--no-filters", o.noFilters, "Leave out the scene's filters")->group(whatGroup);
+    parser.add_flag("--no-style", o.noStyle, "Leave out the styles of lights' shadows")->group(whatGroup);
     addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
         [&o](const std::string& text) { o.reference = text; });
     addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",

@@ -64,6 +64,7 @@ struct RenderOptions {
     std::optional<double> fps; ///< frames in one unit of the keys' time
     std::vector<render::ChosenFilter> filters; ///< after the scene's
     bool noFilters = false; ///< without the scene's
+    bool noStyle = false; ///< lights' shadows as they are
     std::optional<render::Temporal> temporal; ///< likewise
 
     // Ablations.

@@ -2,6 +2,7 @@
 
 #include "effects/area_lights/maaf.h"
 #include "effects/shadow_lights/map_lights.h"
+#include "effects/styled_shadows/styled_lights.h"
 #include "filters/image/filter_section.h"
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
@@ -402,7 +403,9 @@ render::Settings resolveSettings(const RenderOptions& o, const render::PreparedS
     } else if (file.pixelFilter) {
         s.pixelFilter = static_cast<render::PixelFilter>(choice("pixel_filter", *file.pixelFilter, pixelFilters));
     }
+    s.styles = !o.noStyle;
     const bool distributed = render::isDistributed(s, scene);
+    render::requireStylable(s, scene);
     refuseIdleMaaf(o, scene, distributed, s);
     if (method == Method::AxisAligned) {
         if (distributed) {

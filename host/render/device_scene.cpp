@@ -78,6 +78,22 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
     return out;
 }
 
+/// Of these, which are all of the scene's, those whose shadows have no style.
+std::vector<shared::DeltaLight> plainLightData(const scene::Scene& scene, const std::vector<shared::DeltaLight>& all)
+{
+    std::vector<shared::DeltaLight> out;
+    out.reserve(all.size());
+    const std::size_t points = scene.pointLights.size();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool plain =
+            i < points ? scene.pointLights[i].styles.empty() : scene.directionalLights[i - points].styles.empty();
+        if (plain) {
+            out.push_back(all[i]);
+        }
+    }
+    return out;
+}
+
 constexpr double farDiameters = 16.0;
 
 /// Probabilities of what is not in a list of lights.
@@ -241,6 +257,7 @@ DeviceScene::DeviceScene(
     , srgbToLinear(device, 512, "sRGB table")
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
+    , plainLights(device, deltaLights.size(), "lights without a style")
     , emitters(device, scene.lights().emitters.list.size(), "emitters")
     , sharedLights(device, scene.lights().shared.list.size(), "shared lights")
     , emitterPicks(device, scene.lights().emitters.picks.size(), "emitters' probabilities")
@@ -299,6 +316,9 @@ DeviceScene::DeviceScene(
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
+    const std::vector<shared::DeltaLight> plain = plainLightData(scene, delta);
+    plainLights.upload(queue, plain);
+    plainLightCount = static_cast<std::uint32_t>(plain.size());
     assert(scene.traits().moves == hierarchy.moves);
 }
 

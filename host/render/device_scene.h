@@ -51,6 +51,7 @@ public:
     device::Buffer<float> srgbToLinear;
     device::Buffer<shared::AreaLight> areaLights;
     device::Buffer<shared::DeltaLight> deltaLights;
+    device::Buffer<shared::DeltaLight> plainLights; ///< those of them whose shadows have no style
     /// SceneLights::emitters and shared; one element that nobody reads where there are none.
     device::Buffer<shared::Emitter> emitters, sharedLights;
     device::Buffer<float> emitterPicks, sharedPicks;
@@ -60,7 +61,7 @@ public:
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
     std::vector<device::Buffer<float>>
         quadratures; ///< one of DirectLights::own each: the nodes of all rules, lightNodes()
-    std::uint32_t deltaLightCount = 0, emitterCount = 0;
+    std::uint32_t deltaLightCount = 0, plainLightCount = 0, emitterCount = 0;
     /// The term of direct light that lights share.
     struct SharedTerm {
         bool ofEmitters = true; ///< it chooses among emitters; else among sharedLights

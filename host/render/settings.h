@@ -240,6 +240,7 @@ struct Settings {
     /// least 1.
     int maxSurfaces = 16;
     LightSampling lightSampling = LightSampling::Both;
+    bool styles = true; ///< shadows are drawn as lights' styles say, docs/stylized-shadows.md; false: as they are
     IndirectSettings indirect;
     EnvironmentSettings environment;
     bool progressive = false; ///< for Renderer::renderProgressively(); spp: of the last image

@@ -120,6 +120,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     if (s.integrator == Integrator::Path) {
         describeShadows(s.environment.shadows, out);
     }
+    if (!s.styles) {
+        out.emplace_back("styles", "off");
+    }
     if (s.maxSurfaces != Settings().maxSurfaces) {
         out.emplace_back("maxSurfaces", number(s.maxSurfaces));
     }

@@ -58,13 +58,30 @@ struct AreaLight {
     bool twoSided = false, visible = true;
 };
 
+/// How a light's hard shadow is drawn; docs/stylized-shadows.md has the equations. A light may have several, each of a
+/// share of its light.
+struct ShadowStyle {
+    float weight = 1.0f; ///< its share; those of a light add up to 1
+    float inflation = 0.0f; ///< metres that the edge moves outwards
+    float softness = 0.0f; ///< metres over which the edge goes from dark to bright
+    float abstraction = 0.0f; ///< metres: standard deviation of what smooths the shadow's outline
+    glm::vec3 brightness { 0.0f }; ///< of the light, what is left in shadow, 0 to 1
+    bool keepArea = true; ///< a smoothed shadow is as large as before
+
+    bool operator==(const ShadowStyle&) const = default;
+};
+
 struct PointLight {
     glm::vec3 position { 0.0f }, intensity { 1.0f }; ///< W/sr
+    std::string name = {};
+    std::vector<ShadowStyle> styles = {}; ///< none: its shadows are as they are
 };
 
 struct DirectionalLight {
     glm::vec3 direction { 0.0f, -1.0f, 0.0f }; ///< the way the light travels, unit length
     glm::vec3 irradiance { 1.0f }; ///< W/m^2 on a surface that faces the light
+    std::string name = {};
+    std::vector<ShadowStyle> styles = {}; ///< as of PointLight
 };
 
 /// How a lens transmits over its aperture.

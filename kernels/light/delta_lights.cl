@@ -2,6 +2,7 @@
 //
 // in      frame, BVH, the lights, G-buffer
 // in out  lit (3 planes, radiance), rays
+#include "light/delta_light.h"
 #include "light/light_packet.h"
 #include "trace/packet.h"
 
@@ -39,11 +40,9 @@ __kernel void deltaLights(PARAMETERS)
             }
             const Receiver r = loadReceiver(frame, data, i);
             const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
-            const float falloff = light.directional != 0u ? cosine[lane] : cosine[lane] / vecDot(toLight, toLight);
-            const Vec3 lobe = vecScale(
-                loadVec(specular, frame.planeSize, i), lobeValue(r.lobe, r.normal, r.view, vecNormalize(toLight)));
-            const Vec3 reflected = vecMad(lobe, loadVec(diffuse, frame.planeSize, i), WEDGE_INV_PI);
-            radiance[lane] = vecMad(radiance[lane], vecMul(reflected, light.colour), falloff);
+            radiance[lane] = vecAdd(radiance[lane],
+                deltaLightAt(light, r, toLight, cosine[lane], loadVec(diffuse, frame.planeSize, i),
+                    loadVec(specular, frame.planeSize, i)));
         }
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {

@@ -1,0 +1,88 @@
+#include "effects/styled_shadows/styled_lights.h"
+
+#include "host/error.h"
+#include "host/render/distributed_samples.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace wedge::render {
+namespace {
+
+/// Beyond it the transfer function is saturated; and as much again, so that rounding and blur find no end.
+constexpr float headroom = 2.0f;
+/// Standard deviations of the blur that count.
+constexpr float blurReach = 3.0f;
+
+/// As layers are named.
+std::string plainName(const std::string& name)
+{
+    std::string out;
+    out.reserve(name.size());
+    for (const char c : name) {
+        out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    }
+    return out;
+}
+
+/// Gives lights without a name of their own, or with one that begins as a number, their number among all point and
+/// directional lights.
+void number(std::vector<StyledLight>& lights)
+{
+    const std::vector<StyledLight> before = lights;
+    const auto own = [&](const StyledLight& light) {
+        return !light.name.empty() && std::ranges::count(before, light.name, &StyledLight::name) == 1
+            && std::isdigit(static_cast<unsigned char>(light.name.front())) == 0;
+    };
+    for (StyledLight& light : lights) {
+        light.name = own(light) ? light.name : fmt::format("{}", light.index + 1);
+    }
+}
+
+} // namespace
+
+std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene)
+{
+    std::vector<StyledLight> out;
+    if (!settings.styles) {
+        return out;
+    }
+    std::uint32_t index = 0;
+    const auto add = [&](const auto& lights) {
+        for (const auto& light : lights) {
+            if (!light.styles.empty()) {
+                out.push_back({ index, plainName(light.name), light.styles });
+            }
+            ++index;
+        }
+    };
+    add(scene.pointLights);
+    add(scene.directionalLights);
+    number(out);
+    return out;
+}
+
+void requireStylable(const Settings& settings, const scene::Scene& scene)
+{
+    const std::vector<StyledLight> lights = styledLights(settings, scene);
+    if (settings.integrator == Integrator::Path && !lights.empty() && isDistributed(settings, scene)) {
+        throw UsageError("styles of shadows are of frames through a pinhole where nothing moves, neither antialiased "
+                         "nor progressive",
+            fmt::format("style of light {}", lights.front().name),
+            "add --no-style, or leave out --antialias, --progressive, the lens and what moves");
+    }
+}
+
+float mostDistance(std::span<const scene::ShadowStyle> styles)
+{
+    float most = 0.0f;
+    for (const scene::ShadowStyle& style : styles) {
+        most = std::max(most, std::abs(style.inflation) + 0.5f * style.softness + blurReach * style.abstraction);
+    }
+    return headroom * most;
+}
+
+} // namespace wedge::render

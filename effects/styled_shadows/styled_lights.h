@@ -1,0 +1,31 @@
+#pragma once
+
+#include "host/render/settings.h"
+#include "host/scene/scene.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// A light whose hard shadow is drawn in a style.
+struct StyledLight {
+    std::uint32_t index = 0; ///< among DeviceScene::deltaLights: point lights first, then directional ones
+    std::string
+        name; ///< of its layers: its own, as far as it is letters and digits, where no other has it; or a number
+    std::span<const scene::ShadowStyle> styles; ///< the scene's, at least one
+};
+
+/// Lights whose shadows frames of these settings draw in a style; refers to the scene.
+std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene);
+
+/// Throws UsageError where there are any and pixels have several receivers: shadows are drawn of one point a pixel.
+void requireStylable(const Settings& settings, const scene::Scene& scene);
+
+/// Metres from a shadow's edge beyond which no style tells distances apart, at least 0: twice |inflation| +
+/// softness / 2 + 3 abstraction, of the style that has most.
+float mostDistance(std::span<const scene::ShadowStyle> styles);
+
+} // namespace wedge::render

@@ -1,0 +1,272 @@
+#include "effects/styled_shadows/styled_shadows.h"
+
+#include "effects/styled_shadows/styled_lights.h"
+#include "host/graph/lists.h"
+#include "kernels/shared/styled_shadows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::Launch;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+constexpr const char* program = "light/styled_shadows.cl";
+
+struct Matte { }; ///< WEDGE_MATTE_*
+struct Edges { }; ///< pieces of shadows' edges, and boxes around them
+
+/// A number that is 0 where nothing is to be computed, whatever memory holds then.
+graph::Argument unlessEmpty(std::string name, std::uint32_t number)
+{
+    return graph::made(std::move(name), [number](const Launch& launch) { return launch.window.empty() ? 0u : number; });
+}
+
+/// The least power of 2 that is not less, within what single precision takes the eighth power of.
+float unitOf(float metres) { return std::exp2(std::ceil(std::log2(std::max(metres, 1e-9f)))); }
+
+/// The passes of one light.
+class StyledShadow {
+public:
+    StyledShadow(FrameBuilder& frame, ReceiverSet& at, const StyledLight& light)
+        : f_(frame)
+        , at_(at)
+        , light_(light)
+    {
+    }
+
+    /// Declares them; adds to the radiance that pixels reflect.
+    void declare(graph::Handle<Radiance>& radiance)
+    {
+        matte();
+        const float largest = mostDistance(light_.styles);
+        if (largest > 0.0f) {
+            distances(largest);
+        }
+        shares();
+        light(radiance);
+        show();
+    }
+
+private:
+    /// Of the scene's lights the one that this is.
+    Arguments ofLight() const
+    {
+        return graph::together("light",
+            { f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights), value("lightIndex", light_.index),
+                value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) });
+    }
+
+    Arguments surfaces(graph::Reach reach = {}) const
+    {
+        const Surfaces& s = f_.surfaces;
+        return graph::together("surfaces",
+            { reads("position", s.position, reach), reads("normal", s.normal, reach),
+                reads("objectId", s.objectId, reach), reads("pixelSize", s.pixelSize, reach) });
+    }
+
+    /// Of the whole image.
+    shared::AnalysisParams image() const
+    {
+        shared::AnalysisParams p = f_.analysisParams();
+        setRectangle(p, f_.graph.image());
+        return p;
+    }
+
+    void matte()
+    {
+        matte_ = f_.graph.plane<Matte>("shadow's matte", graph::floats);
+        f_.fill("unknown", matte_, WEDGE_MATTE_UNKNOWN);
+        at_.trace("shadows in a style", { program, "shadowMatte" },
+            joined({ at_.frame() }, ofLight(), f_.hierarchy(), at_.arguments(),
+                Arguments { updates("matte", matte_), at_.tallyRays() }),
+            [](const Launch&) { return 1.0; });
+    }
+
+    void distances(float largest)
+    {
+        const auto tilesAlong = [](int pixels) {
+            return std::max((static_cast<std::uint32_t>(pixels) + WEDGE_EDGE_TILE - 2) / WEDGE_EDGE_TILE, 1u);
+        };
+        const PlaneLayout& layout = f_.layout;
+        const std::uint32_t tiles =
+            tilesAlong(static_cast<int>(layout.width)) * tilesAlong(static_cast<int>(layout.height));
+        const std::uint32_t capacity = tiles * WEDGE_EDGE_TILE * WEDGE_EDGE_TILE;
+        auto counts = f_.graph.list<Count>("edges of tiles", graph::counts, tiles);
+        const Arguments cells = joined(
+            { value("p", image()), unlessEmpty("tiles", tiles) }, surfaces(), Arguments { reads("matte", matte_) });
+        f_.items("edges of shadows", PassKind::Analysis, { program, "countEdges" }, tiles,
+            joined(cells, Arguments { writes("counts", counts) }));
+        const graph::ListPlaces places = graph::placeBlocks(f_.graph, "edges of shadows", program, counts, capacity);
+        auto edges =
+            f_.graph.list<Edges>("edges of shadows", graph::floats, std::uint64_t { capacity } * WEDGE_EDGE_FLOATS);
+        f_.items("edges of shadows", PassKind::Analysis, { program, "listEdges" }, tiles,
+            joined(cells,
+                Arguments { reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
+        const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
+        auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
+        const Arguments listed { reads("edges", edges), reads("listed", places.listed), unlessEmpty("most", capacity),
+            value("room", room) };
+        f_.items("edges of shadows", PassKind::Analysis, { program, "boundEdges" }, chunks,
+            joined(listed, Arguments { writes("boxes", boxes) }));
+        const Arguments facing = graph::together(
+            "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
+        distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
+        f_.blocks("distances to shadows' edges", PassKind::Analysis, { program, "shadowDistance" },
+            joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_) },
+                graph::together("edges",
+                    joined(listed,
+                        Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),
+                Arguments {
+                    value("unit", unitOf(largest)), value("largest", largest), writes("distance", distance_) }));
+    }
+
+    /// What all styles leave of the light.
+    void shares()
+    {
+        share_ = f_.graph.plane<Share>("share of a light", graph::vectors);
+        f_.zero(share_);
+        float sum = 0.0f;
+        for (const scene::ShadowStyle& style : light_.styles) {
+            sum += style.weight;
+        }
+        for (const scene::ShadowStyle& style : light_.styles) {
+            addStyle(style, style.weight / sum);
+        }
+    }
+
+    /// What a style goes by, and where in it the shadow's edge is.
+    struct Smoothed {
+        graph::Handle<Metres> distance;
+        graph::Handle<Metres> zeros; ///< one number; of no graph: none but 0
+    };
+
+    Smoothed smoothed(const scene::ShadowStyle& style)
+    {
+        Smoothed out { distance_, {} };
+        if (!(style.abstraction > 0.0f)) {
+            return out;
+        }
+        out.distance = f_.graph.plane<Metres>("smoothed distances", graph::floats);
+        f_.blocks("blur of shadows' edges", PassKind::Filter, { program, "smoothDistance" },
+            joined({ f_.frame() }, surfaces(graph::wholeImage),
+                Arguments { reads("distance", distance_, graph::wholeImage), value("deviation", style.abstraction),
+                    value("largest", mostDistance(light_.styles)), writes("smoothed", out.distance) }));
+        if (style.keepArea) {
+            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * style.abstraction);
+        }
+        return out;
+    }
+
+    /// The distance at which as much is in shadow as was; range: metres to either side of 0.
+    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance, float range)
+    {
+        auto areas = f_.graph.list<Edges>(
+            "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
+        f_.items("areas of shadows", PassKind::Analysis, { program, "countAreas" }, WEDGE_AREA_STRIPES,
+            { value("p", image()), unlessEmpty("stripes", WEDGE_AREA_STRIPES), value("range", range),
+                reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
+                writes("areas", areas) });
+        auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
+        f_.items("areas of shadows", PassKind::Analysis, { program, "keepArea" }, 1,
+            { unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), value("range", range),
+                reads("areas", areas), writes("zeros", zeros) });
+        return zeros;
+    }
+
+    void addStyle(const scene::ShadowStyle& style, float weight)
+    {
+        // Without an edge to be moved the matte itself says what is lit.
+        const bool asIs = distance_.graph == 0;
+        const Smoothed of = asIs ? Smoothed() : smoothed(style);
+        f_.pixels("styles of shadows", PassKind::Composite, { program, "addStyle" },
+            joined(
+                { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
+                    of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros") },
+                graph::together("style",
+                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", style.inflation),
+                        value("softness", style.softness), value("red", style.brightness.x),
+                        value("green", style.brightness.y), value("blue", style.brightness.z),
+                        value("weight", weight) }),
+                Arguments { updates("share", share_) }));
+    }
+
+    void light(graph::Handle<Radiance>& radiance)
+    {
+        f_.pixels("composite", PassKind::Composite, { program, "styledLight" },
+            joined({ f_.frame() }, ofLight(), at_.arguments(),
+                graph::together(
+                    "reflectances", { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular) }),
+                Arguments { reads("share", share_), updates("lit", radiance) }));
+    }
+
+    void show()
+    {
+        if (f_.layers == nullptr) {
+            return;
+        }
+        f_.layers->add({ "shadowMatte", "." + light_.name, matte_, Where::OnSurfaces });
+        if (distance_.graph != 0) {
+            f_.layers->add({ "shadowDistance", "." + light_.name, distance_, Where::OnSurfaces });
+        }
+    }
+
+    FrameBuilder& f_;
+    ReceiverSet& at_;
+    const StyledLight& light_;
+    graph::Handle<Matte> matte_;
+    graph::Handle<Metres> distance_; ///< of no graph where no style moves or softens edges
+    graph::Handle<Share> share_;
+};
+
+void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
+{
+    for (const StyledLight& light : styledLights(f.settings, f.description)) {
+        StyledShadow(f, at, light).declare(radiance);
+    }
+}
+
+class StyledShadows : public Effect {
+public:
+    std::string name() const override { return "styled shadows"; }
+
+    std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
+    {
+        const std::size_t lights = styledLights(settings, scene).size();
+        if (settings.integrator != Integrator::Path || lights == 0) {
+            return std::nullopt;
+        }
+        requireStylable(settings, scene);
+        return Unfiltered { .name = "styled shadows", .workUnits = static_cast<double>(lights), .sample = sample };
+    }
+
+    std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene* scene) const override
+    {
+        const bool styled = scene != nullptr && !styledLights(settings, *scene).empty();
+        const std::string absence = styled ? "" : "no light's shadows have a style";
+        return { { "shadowMatte", { "Y" },
+                     "of each light whose shadows have a style, shadowMatte.NAME: 1 where it is seen, 0 in shadow, -1 "
+                     "where a surface faces away",
+                     absence },
+            { "shadowDistance", { "Z" },
+                "of the same, shadowDistance.NAME: metres to the shadow's edge, below 0 in shadow, 0 where unknown",
+                absence, 0.0f } };
+    }
+};
+
+} // namespace
+
+std::unique_ptr<const Effect> styledShadows() { return std::make_unique<StyledShadows>(); }
+
+} // namespace wedge::render

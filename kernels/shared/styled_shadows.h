@@ -1,0 +1,36 @@
+// Hard shadows that are drawn in a style (kernels/light/styled_shadows.cl).
+#ifndef WEDGE_SHARED_STYLED_SHADOWS_H
+#define WEDGE_SHARED_STYLED_SHADOWS_H
+
+/// What is known of a light at a pixel's surface.
+#define WEDGE_MATTE_LIT 1.0f
+#define WEDGE_MATTE_SHADOW 0.0f
+#define WEDGE_MATTE_UNKNOWN (-1.0f) ///< it faces away from the light, or there is no surface
+
+/// Cells, squares between the middles of four pixels, along each side of a tile of which one work-item lists the edges.
+#define WEDGE_EDGE_TILE 16u
+/// Numbers of a piece of edge in their list: its middle (metres), its normal, its length (metres), and none.
+#define WEDGE_EDGE_FLOATS 8u
+/// Pieces that a box is around, and numbers of a box: its least and its largest corner.
+#define WEDGE_EDGE_CHUNK 32u
+#define WEDGE_EDGE_BOX 6u
+
+/// Surfaces of normals within 45 degrees are one.
+#define WEDGE_SURFACE_COSINE 0.70710678f
+/// Of the mean distance of the power 8 to a straight edge: sqrt(pi) Gamma(7/2) / Gamma(4).
+#define WEDGE_EDGE_CONSTANT 0.98174770f
+/// Edges count that are within so many times the largest distance that is told apart.
+#define WEDGE_EDGE_REACH 3.0f
+
+/// Of a blur: deviations as far as which it reaches, and taps along an axis to either side, at most.
+#define WEDGE_STYLE_CUT 3.0f
+#define WEDGE_STYLE_TAPS 10
+
+/// Classes of distances that shadows' areas are counted by, over WEDGE_STYLE_CUT deviations of the blur to either side;
+/// and stripes of rows that are counted by themselves. Each has the classes, and behind them what is in shadow and what
+/// is lit.
+#define WEDGE_AREA_BINS 2048u
+#define WEDGE_AREA_NUMBERS 2050u
+#define WEDGE_AREA_STRIPES 64u
+
+#endif

@@ -1,0 +1,87 @@
+// Styles of lights' shadows: --no-style, layers, and what is refused.
+#include "tests/app_testing.h"
+
+#include <doctest/doctest.h>
+
+namespace wedge::app::test {
+namespace {
+
+/// A wall on a floor, under a sun.
+void writeScene(Workplace& place, const std::string& more)
+{
+    place.write("floor.obj", "v -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n");
+    place.write("wall.obj", "v 0 0 -1\nv 0 0 1\nv 0 1 1\nv 0 1 -1\nf 1 2 3 4\n");
+    place.write("s.toml",
+        "[camera]\neye = [0, 2, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 48\nheight = 32\n"
+        "[[mesh]]\nfile = \"floor.obj\"\n[[mesh]]\nfile = \"wall.obj\"\n"
+        "[[light]]\ntype = \"directional\"\nname = \"the sun\"\ndirection = [1, -1.5, 0]\nirradiance = 2\n"
+            + more);
+}
+
+const std::string style = "[[light.style]]\ninflation = 0.1\nsoftness = 0.1\n";
+
+image::LayeredImage rendered(const Workplace& place, const Arguments& more)
+{
+    Arguments all { "render", "s.toml", "--quiet", "-o", "a.exr" };
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = place.run(all);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return image::readExr((place.path() / "a.exr").string());
+}
+
+} // namespace
+
+TEST_CASE("--no-style leaves styles out, layers show what they are made of, and images say so")
+{
+    Workplace place;
+    writeScene(place, "");
+    const image::LayeredImage plain = rendered(place, {});
+    writeScene(place, style);
+    const image::LayeredImage styled = rendered(place, { "--layers", "shadowMatte,shadowDistance" });
+    const image::LayeredImage without = rendered(place, { "--no-style" });
+    CHECK(textOf(without, "method.styles") == "off");
+    const auto valuesOf = [](const image::LayeredImage& image, const std::string& name) {
+        for (const image::Channel& channel : image.channels)
+            if (channel.name == name)
+                return channel.values;
+        return std::vector<float> {};
+    };
+    CHECK(valuesOf(without, "R") == valuesOf(plain, "R"));
+    CHECK(valuesOf(styled, "R") != valuesOf(plain, "R"));
+    const std::vector<float> matte = valuesOf(styled, "shadowMatte.the_sun.Y");
+    const std::vector<float> distance = valuesOf(styled, "shadowDistance.the_sun.Z");
+    REQUIRE(matte.size() == 48 * 32);
+    REQUIRE(distance.size() == matte.size());
+    std::size_t lit = 0, shadowed = 0;
+    for (std::size_t i = 0; i < matte.size(); ++i) {
+        lit += distance[i] > 0 ? 1 : 0;
+        shadowed += distance[i] < 0 ? 1 : 0;
+        CHECK((distance[i] < 0) == (matte[i] == 0 && distance[i] != 0));
+    }
+    CHECK(lit > 60);
+    CHECK(shadowed > 30);
+}
+
+TEST_CASE("styles that frames cannot have are refused in a line")
+{
+    Workplace place;
+    writeScene(place, style);
+    const auto refused = [&](const Arguments& more, const std::string& says) {
+        Arguments all { "render", "s.toml", "-o", "a.exr" };
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(all);
+        CHECK(outcome.status == wrongCall);
+        CHECK_MESSAGE(contains(outcome.err, says), outcome.err);
+    };
+    const std::string several = "wedge: error: styles of shadows are of frames through a pinhole where nothing moves, "
+                                "neither antialiased nor progressive: style of light the_sun: add --no-style, or leave "
+                                "out --antialias, --progressive, the lens and what moves";
+    refused({ "--antialias" }, several);
+    refused({ "--progressive" }, several);
+    refused({ "--aperture", "0.1" }, several);
+    rendered(place, { "--antialias", "--no-style", "--spp", "8" });
+    rendered(place, { "--integrator", "ao", "--antialias", "--spp", "8" });
+    refused({ "--no-style", "--layers", "shadowMatte" }, "layer cannot be made, no light's shadows have a style");
+}
+
+} // namespace wedge::app::test

@@ -1,0 +1,80 @@
+// [[light.style]]: how hard shadows are drawn, and what is wrong in it.
+#include "tests/scene_support.h"
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using wedge::scene::Scene;
+
+const std::string sun = "[[light]]\ntype = 'directional'\nname = 'sun'\ndirection = [0, -1, 0]\nirradiance = 1\n";
+
+Scene load(const std::string& text)
+{
+    const scene_test::TemporaryFolder folder;
+    return wedge::scene::loadScene(folder.write("s.toml", text));
+}
+
+/// What is said of a scene with that style of its sun.
+std::string refused(const std::string& style)
+{
+    const scene_test::TemporaryFolder folder;
+    return scene_test::errorOf(folder.write("s.toml", sun + style));
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+} // namespace
+
+TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a light")
+{
+    const Scene one = load(sun + "[[light.style]]\ninflation = 2\n");
+    REQUIRE(one.directionalLights.size() == 1);
+    CHECK(one.directionalLights[0].name == "sun");
+    REQUIRE(one.directionalLights[0].styles.size() == 1);
+    wedge::scene::ShadowStyle inflated;
+    inflated.inflation = 2;
+    CHECK(one.directionalLights[0].styles[0] == inflated);
+    const Scene two = load("[[light]]\ntype = 'point'\nposition = [0, 1, 0]\nintensity = 1\n"
+                           "[[light.style]]\nweight = 0.25\ninflation = -0.5\nsoftness = 0.125\nabstraction = 2\n"
+                           "brightness = [0, 0.5, 1]\nkeep_area = false\n"
+                           "[[light.style]]\nweight = 0.75005\nbrightness = 0.5\n");
+    REQUIRE(two.pointLights.size() == 1);
+    REQUIRE(two.pointLights[0].styles.size() == 2);
+    CHECK(two.pointLights[0].styles[0]
+        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, { 0, 0.5f, 1 }, false });
+    CHECK(two.pointLights[0].styles[1].brightness == glm::vec3(0.5f));
+    // What changes nothing is none.
+    CHECK(load(sun).directionalLights[0].styles.empty());
+    CHECK(load(sun + "[[light.style]]\nkeep_area = false\n").directionalLights[0].styles.empty());
+    CHECK(load(sun + "[[light.style]]\nweight = 0.5\n[[light.style]]\nweight = 0.5\n")
+              .directionalLights[0]
+              .styles.empty());
+}
+
+TEST_CASE("what is wrong in a style is told with its place")
+{
+    const auto says = [](const std::string& style, const std::string& what) {
+        const std::string message = refused(style);
+        CHECK_MESSAGE(contains(message, what), message);
+    };
+    const std::string style = "[[light.style]]\n";
+    says(style + "inflaton = 1\n", "s.toml:7:1: unknown key in light.style: 'inflaton': did you mean 'inflation'?");
+    says(style + "softness = -0.1\n", "s.toml:7:12: softness of light.style is out of range: -0.1");
+    says(style + "abstraction = -1\n", "abstraction of light.style is out of range");
+    says(style + "inflation = nan\n", "inflation of light.style is not finite");
+    says(style + "softness = inf\n", "softness of light.style is not finite");
+    says(style + "brightness = 1.5\n", "brightness of light.style is out of range: 1.5: use 0 to 1");
+    says(style + "brightness = [0, -1, 0]\n", "brightness of light.style is negative");
+    says(style + "keep_area = 1\n", "keep_area of light.style must be true or false");
+    says(style + "weight = 0.9\n", "style of light has weights that do not add up to 1: 0.9");
+    says(
+        style + "weight = 0.5\n" + style + "weight = 0.4\n", "style of light has weights that do not add up to 1: 0.9");
+    says(style + "weight = 0.5\n" + style + "inflation = 1\n", "light.style lacks a key: weight");
+    says("style = 1\n", "style of light must be a table");
+    const scene_test::TemporaryFolder folder;
+    const std::string quad = scene_test::errorOf(folder.write("s.toml",
+        "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n"
+            + style));
+    CHECK_MESSAGE(contains(quad, "style of light is of hard shadows, and those of a quad are soft"), quad);
+}
