@@ -74,7 +74,7 @@ TEST_CASE("styles that frames cannot have are refused in a line")
         CHECK_MESSAGE(contains(outcome.err, says), outcome.err);
     };
     const std::string several = "wedge: error: styles of shadows are of frames through a pinhole where nothing moves, "
-                                "neither antialiased nor progressive: style of light the_sun: add --no-style, or leave "
+                                "neither antialiased nor progressive: style of light the sun: add --no-style, or leave "
                                 "out --antialias, --progressive, the lens and what moves";
     refused({ "--antialias" }, several);
     refused({ "--progressive" }, several);

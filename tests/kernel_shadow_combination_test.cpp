@@ -49,7 +49,7 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
         const auto run = [&](std::uint32_t shadows, bool prefiltered, bool clamps, bool wide) {
             bench.plane("lit", before);
             bench.value("shadows", shadows);
-            bench.value("prefiltered", prefiltered ? 1u : 0u);
+            bench.value("complete", prefiltered ? WEDGE_COMPLETE_PREFILTERED : WEDGE_COMPLETE_LIGHTS);
             bench.value("clamps", clamps ? 1u : 0u);
             bench.value("wide", wide ? 1u : 0u);
             bench.run();
@@ -139,6 +139,47 @@ TEST_CASE("combineShadowLights: what is left of the whole light, each way, and h
             });
             CHECK(below > 100);
         }
+    });
+}
+
+TEST_CASE("combineShadowLights: of sums over the map, what no light reaches is as if nothing hid it")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(
+            device, under(scene::SpecularModel::Phong, 40), settings(render::Shadows::Ratio, render::WholeLight::Map));
+        PassBench combine(frame, "combineShadowLights");
+        std::mt19937 random(5);
+        const std::size_t size = frame.layout.size;
+        for (const char* name : { "diffuse", "specular", "wholeMatt", "whole" })
+            combine.plane(name, someNumbers(random, 3 * size, 0.1, 2));
+        std::vector<float> matt = someNumbers(random, 6 * size, 0.1, 1), lobes = someNumbers(random, 12 * size, 0.1, 1);
+        for (std::size_t i = 0; i < size; i += 3) { // nothing reaches these
+            for (std::size_t plane = 0; plane < 6; ++plane)
+                matt[plane * size + i] = 0;
+            for (std::size_t plane = 0; plane < 12; ++plane)
+                lobes[plane * size + i] = 0;
+        }
+        combine.plane("mattSums", matt);
+        combine.plane("lobeSums", lobes);
+        combine.plane("taken", std::vector<std::uint32_t>(size, 1));
+        combine.plane("lit", std::vector<float>(3 * size, 0.0f));
+        combine.run();
+        const auto at = [&](const char* name) { return combine.pixels<float>(name); };
+        const auto lit = at("lit"), diffuse = at("diffuse"), specular = at("specular"), ofMatt = at("wholeMatt"),
+                   ofLobes = at("whole"), m = at("mattSums"), l = at("lobeSums");
+        std::size_t open = 0;
+        everyPixel(frame.layout, [&](int x, int y) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double all = m.at(x, y, c + 3), wide = double { l.at(x, y, c + 3) } + l.at(x, y, c + 9);
+                const double share = all > 0 ? m.at(x, y, c) / all : 1;
+                const double lobeShare = wide > 0 ? (double { l.at(x, y, c) } + l.at(x, y, c + 6)) / wide : 1;
+                const double expected = diffuse.at(x, y, c) * ofMatt.at(x, y, c) * share
+                    + specular.at(x, y, c) * ofLobes.at(x, y, c) * lobeShare;
+                REQUIRE(lit.at(x, y, c) == doctest::Approx(expected).epsilon(1e-5));
+                open += all > 0 ? 0 : 1;
+            }
+        });
+        CHECK(open > 1000);
     });
 }
 

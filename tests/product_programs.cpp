@@ -73,6 +73,10 @@ std::vector<Settings> manySettings()
     add(1, [](Settings& s) { s.environment.sampling = render::EnvironmentSampling::Precomputed; });
     add(0, [](Settings& s) { s.environment.shadows.shadows = render::Shadows::Subtractive; });
     add(1, [](Settings& s) { s.environment.shadows.shadows = render::Shadows::Ratio; });
+    add(1, [](Settings& s) {
+        s.environment.shadows.shadows = render::Shadows::Ratio;
+        s.environment.shadows.whole = render::WholeLight::Prefiltered;
+    });
     add(3, [](Settings& s) {
         s.maaf = render::Maaf::Refitted;
         s.components = 3;

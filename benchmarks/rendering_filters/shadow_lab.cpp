@@ -170,9 +170,7 @@ std::vector<ShadowPoint> ShadowLab::measureAll(const std::vector<ShadowWay>& way
         true } };
     for (const ShadowWay& way : ways) {
         for (const int lights : plan_.lights) {
-            if (lights >= way.fewestLights) {
-                settings.push_back(ofWay(way, lights));
-            }
+            settings.push_back(ofWay(way, lights));
         }
     }
     std::vector<ShadowPoint> out = measure(settings);

@@ -11,7 +11,6 @@ namespace wedge::benchmark {
 struct ShadowWay {
     std::string name;
     void (*set)(render::ShadowSettings& settings); ///< all but the number of lights
-    int fewestLights = 1; ///< it is not measured with fewer
 };
 
 /// The ways that claims are about.

@@ -143,6 +143,12 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
     if (f.specular()) {
         f.zero(lit.lobes);
     }
+    // Before lights: a frame that is stopped then has as much of it as there are lights.
+    if (wholeLight(s) == WholeLight::Map) {
+        wholeOfMap(f, at, lit);
+    } else if (f.specular() && wholeLight(s) == WholeLight::Prefiltered) {
+        lit.wholeLobes = wholeLobes(f, at);
+    }
     // Lights are 4 pi / N apart, and a lobe of the exponent m is about 2 pi / m wide.
     const float spacing = static_cast<float>(count) / (4.0f * std::acos(-1.0f));
     const SampleSlices slices(0, count, sliceLights, count);
@@ -153,11 +159,6 @@ Lit traceLights(FrameBuilder& f, ReceiverSet& at)
                     updates("mattSums", lit.matt), ofLobes(f, lit.lobes), at.tallyRays() }),
             slices.workUnits(static_cast<double>(count)));
     });
-    if (wholeLight(s) == WholeLight::Map) {
-        wholeOfMap(f, at, lit);
-    } else if (f.specular() && wholeLight(s) == WholeLight::Prefiltered) {
-        lit.wholeLobes = wholeLobes(f, at);
-    }
     return lit;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/error.h"
 #include "host/render/distributed_samples.h"
+#include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,15 +15,15 @@ namespace {
 
 /// Beyond it the transfer function is saturated; and as much again, so that rounding and blur find no end.
 constexpr float headroom = 2.0f;
-/// Standard deviations of the blur that count.
-constexpr float blurReach = 3.0f;
+/// Characters of a light's name in those of layers, which files cut where they are long.
+constexpr std::size_t longestName = 64;
 
 /// As layers are named.
 std::string plainName(const std::string& name)
 {
     std::string out;
-    out.reserve(name.size());
-    for (const char c : name) {
+    out.reserve(longestName);
+    for (const char c : name.substr(0, longestName)) {
         out += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
     }
     return out;
@@ -54,7 +55,8 @@ std::vector<StyledLight> styledLights(const Settings& settings, const scene::Sce
     const auto add = [&](const auto& lights) {
         for (const auto& light : lights) {
             if (!light.styles.empty()) {
-                out.push_back({ index, plainName(light.name), light.styles });
+                const std::string called = light.name.empty() ? fmt::format("{}", index + 1) : light.name;
+                out.push_back({ index, plainName(light.name), called, light.styles });
             }
             ++index;
         }
@@ -71,7 +73,7 @@ void requireStylable(const Settings& settings, const scene::Scene& scene)
     if (settings.integrator == Integrator::Path && !lights.empty() && isDistributed(settings, scene)) {
         throw UsageError("styles of shadows are of frames through a pinhole where nothing moves, neither antialiased "
                          "nor progressive",
-            fmt::format("style of light {}", lights.front().name),
+            fmt::format("style of light {}", lights.front().called),
             "add --no-style, or leave out --antialias, --progressive, the lens and what moves");
     }
 }
@@ -80,7 +82,7 @@ float mostDistance(std::span<const scene::ShadowStyle> styles)
 {
     float most = 0.0f;
     for (const scene::ShadowStyle& style : styles) {
-        most = std::max(most, std::abs(style.inflation) + 0.5f * style.softness + blurReach * style.abstraction);
+        most = std::max(most, std::abs(style.inflation) + 0.5f * style.softness + WEDGE_STYLE_CUT * style.abstraction);
     }
     return headroom * most;
 }

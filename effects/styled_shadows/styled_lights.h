@@ -15,6 +15,7 @@ struct StyledLight {
     std::uint32_t index = 0; ///< among DeviceScene::deltaLights: point lights first, then directional ones
     std::string
         name; ///< of its layers: its own, as far as it is letters and digits, where no other has it; or a number
+    std::string called; ///< in messages: by its own name, or a number
     std::span<const scene::ShadowStyle> styles; ///< the scene's, at least one
 };
 

@@ -27,12 +27,6 @@ constexpr const char* program = "light/styled_shadows.cl";
 struct Matte { }; ///< WEDGE_MATTE_*
 struct Edges { }; ///< pieces of shadows' edges, and boxes around them
 
-/// A number that is 0 where nothing is to be computed, whatever memory holds then.
-graph::Argument unlessEmpty(std::string name, std::uint32_t number)
-{
-    return graph::made(std::move(name), [number](const Launch& launch) { return launch.window.empty() ? 0u : number; });
-}
-
 /// The least power of 2 that is not less, within what single precision takes the eighth power of.
 float unitOf(float metres) { return std::exp2(std::ceil(std::log2(std::max(metres, 1e-9f)))); }
 
@@ -104,8 +98,8 @@ private:
             tilesAlong(static_cast<int>(layout.width)) * tilesAlong(static_cast<int>(layout.height));
         const std::uint32_t capacity = tiles * WEDGE_EDGE_TILE * WEDGE_EDGE_TILE;
         auto counts = f_.graph.list<Count>("edges of tiles", graph::counts, tiles);
-        const Arguments cells = joined(
-            { value("p", image()), unlessEmpty("tiles", tiles) }, surfaces(), Arguments { reads("matte", matte_) });
+        const Arguments cells = joined({ value("p", image()), graph::unlessEmpty("tiles", tiles) }, surfaces(),
+            Arguments { reads("matte", matte_) });
         f_.items("edges of shadows", PassKind::Analysis, { program, "countEdges" }, tiles,
             joined(cells, Arguments { writes("counts", counts) }));
         const graph::ListPlaces places = graph::placeBlocks(f_.graph, "edges of shadows", program, counts, capacity);
@@ -116,8 +110,8 @@ private:
                 Arguments { reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
         const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
         auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
-        const Arguments listed { reads("edges", edges), reads("listed", places.listed), unlessEmpty("most", capacity),
-            value("room", room) };
+        const Arguments listed { reads("edges", edges), reads("listed", places.listed),
+            graph::unlessEmpty("most", capacity), value("room", room) };
         f_.items("edges of shadows", PassKind::Analysis, { program, "boundEdges" }, chunks,
             joined(listed, Arguments { writes("boxes", boxes) }));
         const Arguments facing = graph::together(
@@ -175,12 +169,12 @@ private:
         auto areas = f_.graph.list<Edges>(
             "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
         f_.items("areas of shadows", PassKind::Analysis, { program, "countAreas" }, WEDGE_AREA_STRIPES,
-            { value("p", image()), unlessEmpty("stripes", WEDGE_AREA_STRIPES), value("range", range),
+            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), value("range", range),
                 reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
                 writes("areas", areas) });
         auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
         f_.items("areas of shadows", PassKind::Analysis, { program, "keepArea" }, 1,
-            { unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), value("range", range),
+            { graph::unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), value("range", range),
                 reads("areas", areas), writes("zeros", zeros) });
         return zeros;
     }
@@ -208,7 +202,7 @@ private:
             joined({ f_.frame() }, ofLight(), at_.arguments(),
                 graph::together(
                     "reflectances", { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular) }),
-                Arguments { reads("share", share_), updates("lit", radiance) }));
+                Arguments { reads("matte", matte_), reads("share", share_), updates("lit", radiance) }));
     }
 
     void show()

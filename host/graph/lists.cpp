@@ -7,13 +7,12 @@ namespace {
 
 constexpr std::uint32_t parts = 256; ///< of the blocks: work-items
 
-/// A number that is 0 where nothing is to be computed, whatever memory holds then.
+} // namespace
+
 Argument unlessEmpty(std::string name, std::uint32_t number)
 {
     return made(std::move(name), [number](const Launch& launch) { return launch.window.empty() ? 0u : number; });
 }
-
-} // namespace
 
 ListPlaces placeBlocks(
     Graph& graph, const std::string& name, const std::string& kernels, const Version& elements, std::uint32_t capacity)

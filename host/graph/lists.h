@@ -30,6 +30,9 @@ struct ListPlaces {
 ListPlaces placeBlocks(
     Graph& graph, const std::string& name, const std::string& kernels, const Version& elements, std::uint32_t capacity);
 
+/// A number that is 0 where nothing is to be computed, whatever memory holds then.
+Argument unlessEmpty(std::string name, std::uint32_t number);
+
 /// Two arguments by which a pass is launched over all that a list has room for, and its kernel goes by those that there
 /// are: NAME, ListPlaces::listed, and NAME_most.
 std::vector<Argument> countedBy(const std::string& name, const ListPlaces& places);

@@ -9,7 +9,7 @@
 /// Of matt light: parts that the horizon comes nearer to than so many deviations, squared, ...
 #define WEDGE_MATT_HORIZON 9.0f
 /// ... are split as long as they are wider than this variance, radians squared.
-#define WEDGE_MATT_VARIANCE 0.01f
+#define WEDGE_MATT_VARIANCE 0.002f
 /// Wider ones are split whatever they bring.
 #define WEDGE_WIDE_PART 0.1f
 /// A single place varies by 1/12 of its side's square. Lobes over it vary by 1/4 of that at least: they leave no gaps.
@@ -68,13 +68,14 @@ WEDGE_FN void addPart(Vec3 irradiance, const float* weight, MapLanes* sum)
     }
 }
 
-/// The mean of max(c + deviation z, 0) over a normal z, to 2 % of the deviation: of a part of the map that the horizon
-/// cuts, the part above it.
+/// The mean of max(c + deviation z, 0) over a normal z, to 0.001 of the deviation: of a part of the map that the
+/// horizon cuts, what is above it.
 WEDGE_INLINE float cosineAbove(float c, float variance)
 {
-    const float deviation = sqrt(variance), z = c / deviation;
-    const float above = 1.0f / (1.0f + exp2Bounded(fmin(-2.455f * z, 60.0f))); // the normal distribution's, about
-    const float density = 0.398942280f * exp2Bounded(fmax(-0.721347520f * z * z, -60.0f));
+    const float deviation = sqrt(variance), z = fmin(fmax(c / deviation, -6.0f), 6.0f);
+    // The normal distribution, as 1 / (1 + exp(-1.5957691 z - 0.07056 z^3)) (Page, 1977).
+    const float above = 1.0f / (1.0f + exp2Bounded(-z * (2.30220824f + 0.10179657f * z * z)));
+    const float density = 0.398942280f * exp2Bounded(-0.721347520f * z * z);
     return fmax(c * above + deviation * density, 0.0f);
 }
 

@@ -275,7 +275,9 @@ __kernel void combineShadowLights(PARAMETERS)
         const Vec3 most = vecScale(vec3(mostRed, mostGreen, mostBlue), WEDGE_INV_PI);
         matt = vecMul(most, vec3(light.x.s0, light.y.s0, light.z.s0));
     }
-    matt = clampedLight(allWithShadows(shadows, matt, mattSums, size, i, false, 0.0f), clamps, &below);
+    // Harmonics bring light from where there is none.
+    const float unlit = complete == WEDGE_COMPLETE_PREFILTERED ? 0.0f : 1.0f;
+    matt = clampedLight(allWithShadows(shadows, matt, mattSums, size, i, false, unlit), clamps, &below);
     const Vec3 k = loadVec(diffuse, size, i);
     Vec3 sum = vecMul(matt, k);
     below = below && luminance(k) > 0.0f;

@@ -494,7 +494,7 @@ __kernel void smoothDistance(PARAMETERS)
     b.n = loadVecBlock(b.normal, b.size, i);
     b.object = loadIdBlock(objectId, i);
     b.perSize = 1.0f / max16(loadBlock(pixelSize, i), (float16)(1e-30f));
-    b.perSquare = 0.72134752f / (deviation * deviation);
+    b.perSquare = 0.72134752f / fmax(deviation * deviation, 1e-30f);
     const float reach = WEDGE_STYLE_CUT * deviation;
     b.square = reach * reach;
     const float16 depth = max16(dot16(sub16(b.at, splat3(frame.eye)), splat3(frame.forward)), (float16)(1e-20f));
@@ -616,14 +616,14 @@ __kernel void addStyle(PARAMETERS)
 
 /// The light of a light whose shadows have a style.
 ///
-/// in      frame, receivers, diffuse, specular; lights, of which lightIndex is the one; share: R G B, of it
+/// in      frame, receivers, diffuse, specular; lights, of which lightIndex is the one; matte; share: R G B, of it
 /// in out  lit (3 planes, radiance)
 #include "pass/styledLight.h"
 #ifdef PASS_styledLight
 __kernel void styledLight(PARAMETERS)
 {
     WEDGE_PIXEL(frame, x, y, i);
-    if (objectId[i] == 0u) {
+    if (objectId[i] == 0u || LOAD_matte(frame.planeSize, i) < 0.0f) { // faces away, or was not come to
         return;
     }
     const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
