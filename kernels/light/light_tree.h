@@ -92,22 +92,24 @@ WEDGE_FN void beginWalk(const uint* of, uint parts, Walk* walk)
     }
 }
 
-/// Lanes that are at part i and for which it is to be split, if it can be, go on below it. Those that take it keep
-/// their weight, all others have none.
+/// Lanes that are at part i and for which it is to be split, if it can be, go on below it.
 /// splits: 1 or 0
+/// out  takes: 1 of lanes that take it as a whole; any: whether one does
 /// Returns the part that is next.
-WEDGE_FN uint walkOn(uint i, uint count, const uint* splits, float* weight, Walk* walk)
+WEDGE_FN uint walkOn(uint i, uint count, const uint* splits, float* takes, bool* any, Walk* walk)
 {
-    uint below = 0u;
+    uint below = 0u, taken = 0u;
     const uint can = count > 1u ? 1u : 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint open = walk->until[lane] <= i ? 1u : 0u;
         const uint split = open & splits[lane] & can;
-        const uint taken = open & (1u - split);
-        weight[lane] = taken != 0u ? weight[lane] : 0.0f;
-        walk->until[lane] = taken != 0u ? i + count : walk->until[lane];
+        const uint own = open & (1u - split);
+        takes[lane] = (float)own;
+        walk->until[lane] = own != 0u ? i + count : walk->until[lane];
         below |= split;
+        taken |= own;
     }
+    *any = taken != 0u;
     return i + (below != 0u ? 1u : count);
 }
 
@@ -125,16 +127,22 @@ WEDGE_FN void mattLight(
         }
         const uint wide = part.variance > WEDGE_MATT_VARIANCE ? 1u : 0u,
                    widest = part.variance > WEDGE_WIDE_PART ? 1u : 0u;
-        float weight[WEDGE_PACKET_SIZE];
+        float cosine[WEDGE_PACKET_SIZE], takes[WEDGE_PACKET_SIZE];
         uint splits[WEDGE_PACKET_SIZE];
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const float c = vecDot(vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), part.towards);
             const uint cut = c * c < WEDGE_MATT_HORIZON * part.variance ? wide : 0u;
             splits[lane] = cut | widest;
-            weight[lane] = cosineAbove(c * part.length, part.variance);
+            cosine[lane] = c * part.length;
         }
-        i = walkOn(i, part.count, splits, weight, &walk);
-        addPart(part.irradiance, weight, sum);
+        bool any;
+        i = walkOn(i, part.count, splits, takes, &any, &walk);
+        if (any) {
+            for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+                takes[lane] *= cosineAbove(cosine[lane], part.variance);
+            }
+            addPart(part.irradiance, takes, sum);
+        }
     }
 }
 
@@ -217,21 +225,29 @@ WEDGE_FN void lobeLight(
             i += part.count;
             continue;
         }
-        float weight[WEDGE_PACKET_SIZE], cosine[WEDGE_PACKET_SIZE], bound[WEDGE_PACKET_SIZE];
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const float c = vecDot(vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), part.towards);
-            cosine[lane] = cosineAbove(c * part.length, part.variance);
-        }
-        spreadLobes(&own, &mirrored, part, &spread);
-        lobeWeights(r, &spread, part.towards, cosine, weight);
-        lobeBounds(r, &own, &mirrored, part, bound);
+        float takes[WEDGE_PACKET_SIZE], cosine[WEDGE_PACKET_SIZE], weight[WEDGE_PACKET_SIZE];
         uint splits[WEDGE_PACKET_SIZE];
-        const uint widest = part.variance > WEDGE_WIDE_PART ? 1u : 0u;
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            splits[lane] = widest | (bound[lane] * part.brightest > least ? 1u : 0u);
+        if (part.variance > WEDGE_WIDE_PART) {
+            for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+                splits[lane] = 1u;
+            }
+        } else {
+            lobeBounds(r, &own, &mirrored, part, weight);
+            for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+                splits[lane] = weight[lane] * part.brightest > least ? 1u : 0u;
+            }
         }
-        i = walkOn(i, part.count, splits, weight, &walk);
-        addPart(part.irradiance, weight, sum);
+        bool any;
+        i = walkOn(i, part.count, splits, takes, &any, &walk);
+        if (any) {
+            for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+                const float c = vecDot(vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), part.towards);
+                cosine[lane] = cosineAbove(c * part.length, part.variance) * takes[lane];
+            }
+            spreadLobes(&own, &mirrored, part, &spread);
+            lobeWeights(r, &spread, part.towards, cosine, weight);
+            addPart(part.irradiance, weight, sum);
+        }
     }
 }
 #endif
