@@ -118,7 +118,7 @@ check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
 check sky_precomputed "$scenes/sky.toml" --traversal wide --size 9x5 --method mc --spp 2 --environment-sampling precomputed
 check sky_published "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --as-published
 check sky_corrected "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16 --environment-widths corrected
-check sky_lights "$scenes/sky.toml" --traversal wide --size 9x5 --method mc --spp 1 --shadows ratio --shadow-lights 5
+check sky_lights "$scenes/sky.toml" --traversal wide --size 5x4 --method mc --spp 1 --shadows ratio --shadow-lights 5
 check sky_lights_prefiltered "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows ratio --shadow-lights 2 --shadow-complete prefiltered
 check sky_lights_scalar "$scenes/sky.toml" --traversal scalar --size 7x5 --method aaf --spp 16 --shadows subtractive --shadow-lights 5
 check styled "$scenes/styled.toml" --traversal wide --size 19x13 --method mc --spp 1
