@@ -42,8 +42,8 @@ TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a l
     REQUIRE(two.pointLights.size() == 1);
     REQUIRE(two.pointLights[0].styles.size() == 2);
     CHECK(two.pointLights[0].styles[0]
-        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, { 0, 0.5f, 1 }, false });
-    CHECK(two.pointLights[0].styles[1].brightness == glm::vec3(0.5f));
+        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, glm::vec3(0, 0.5f, 1), false, {}, {} });
+    CHECK(two.pointLights[0].styles[1].brightness == wedge::scene::Knob<glm::vec3>(glm::vec3(0.5f)));
     // What changes nothing is none.
     CHECK(load(sun).directionalLights[0].styles.empty());
     CHECK(load(sun + "[[light.style]]\nkeep_area = false\n").directionalLights[0].styles.empty());

@@ -82,7 +82,9 @@ float mostDistance(std::span<const scene::ShadowStyle> styles)
 {
     float most = 0.0f;
     for (const scene::ShadowStyle& style : styles) {
-        most = std::max(most, std::abs(style.inflation) + 0.5f * style.softness + WEDGE_STYLE_CUT * style.abstraction);
+        most = std::max(most,
+            std::abs(style.inflation.constant) + 0.5f * style.softness.constant
+                + WEDGE_STYLE_CUT * style.abstraction.constant);
     }
     return headroom * most;
 }

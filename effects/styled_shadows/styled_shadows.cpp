@@ -22,7 +22,9 @@ using graph::writes;
 
 namespace {
 
-constexpr const char* program = "light/styled_shadows.cl";
+constexpr const char* edgesProgram = "light/shadow_edges.cl";
+constexpr const char* distanceProgram = "light/shadow_distance.cl";
+constexpr const char* stylesProgram = "light/shadow_styles.cl";
 
 struct Matte { }; ///< WEDGE_MATTE_*
 struct Edges { }; ///< pieces of shadows' edges, and boxes around them
@@ -82,7 +84,7 @@ private:
     {
         matte_ = f_.graph.plane<Matte>("shadow's matte", graph::floats);
         f_.fill("unknown", matte_, WEDGE_MATTE_UNKNOWN);
-        at_.trace("shadows in a style", { program, "shadowMatte" },
+        at_.trace("shadows in a style", { edgesProgram, "shadowMatte" },
             joined({ at_.frame() }, ofLight(), f_.hierarchy(), at_.arguments(),
                 Arguments { updates("matte", matte_), at_.tallyRays() }),
             [](const Launch&) { return 1.0; });
@@ -100,24 +102,25 @@ private:
         auto counts = f_.graph.list<Count>("edges of tiles", graph::counts, tiles);
         const Arguments cells = joined({ value("p", image()), graph::unlessEmpty("tiles", tiles) }, surfaces(),
             Arguments { reads("matte", matte_) });
-        f_.items("edges of shadows", PassKind::Analysis, { program, "countEdges" }, tiles,
+        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "countEdges" }, tiles,
             joined(cells, Arguments { writes("counts", counts) }));
-        const graph::ListPlaces places = graph::placeBlocks(f_.graph, "edges of shadows", program, counts, capacity);
+        const graph::ListPlaces places =
+            graph::placeBlocks(f_.graph, "edges of shadows", edgesProgram, counts, capacity);
         auto edges =
             f_.graph.list<Edges>("edges of shadows", graph::floats, std::uint64_t { capacity } * WEDGE_EDGE_FLOATS);
-        f_.items("edges of shadows", PassKind::Analysis, { program, "listEdges" }, tiles,
+        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "listEdges" }, tiles,
             joined(cells,
                 Arguments { reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
         const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
         auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
         const Arguments listed { reads("edges", edges), reads("listed", places.listed),
             graph::unlessEmpty("most", capacity), value("room", room) };
-        f_.items("edges of shadows", PassKind::Analysis, { program, "boundEdges" }, chunks,
+        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "boundEdges" }, chunks,
             joined(listed, Arguments { writes("boxes", boxes) }));
         const Arguments facing = graph::together(
             "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
-        f_.blocks("distances to shadows' edges", PassKind::Analysis, { program, "shadowDistance" },
+        f_.blocks("distances to shadows' edges", PassKind::Analysis, { distanceProgram, "shadowDistance" },
             joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_) },
                 graph::together("edges",
                     joined(listed,
@@ -149,16 +152,17 @@ private:
     Smoothed smoothed(const scene::ShadowStyle& style)
     {
         Smoothed out { distance_, {} };
-        if (!(style.abstraction > 0.0f)) {
+        if (!(style.abstraction.constant > 0.0f)) {
             return out;
         }
         out.distance = f_.graph.plane<Metres>("smoothed distances", graph::floats);
-        f_.blocks("blur of shadows' edges", PassKind::Filter, { program, "smoothDistance" },
+        f_.blocks("blur of shadows' edges", PassKind::Filter, { distanceProgram, "smoothDistance" },
             joined({ f_.frame() }, surfaces(graph::wholeImage),
-                Arguments { reads("distance", distance_, graph::wholeImage), value("deviation", style.abstraction),
-                    value("largest", mostDistance(light_.styles)), writes("smoothed", out.distance) }));
+                Arguments { reads("distance", distance_, graph::wholeImage),
+                    value("deviation", style.abstraction.constant), value("largest", mostDistance(light_.styles)),
+                    writes("smoothed", out.distance) }));
         if (style.keepArea) {
-            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * style.abstraction);
+            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * style.abstraction.constant);
         }
         return out;
     }
@@ -168,12 +172,12 @@ private:
     {
         auto areas = f_.graph.list<Edges>(
             "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
-        f_.items("areas of shadows", PassKind::Analysis, { program, "countAreas" }, WEDGE_AREA_STRIPES,
+        f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "countAreas" }, WEDGE_AREA_STRIPES,
             { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), value("range", range),
                 reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
                 writes("areas", areas) });
         auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
-        f_.items("areas of shadows", PassKind::Analysis, { program, "keepArea" }, 1,
+        f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "keepArea" }, 1,
             { graph::unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), value("range", range),
                 reads("areas", areas), writes("zeros", zeros) });
         return zeros;
@@ -184,21 +188,21 @@ private:
         // Without an edge to be moved the matte itself says what is lit.
         const bool asIs = distance_.graph == 0;
         const Smoothed of = asIs ? Smoothed() : smoothed(style);
-        f_.pixels("styles of shadows", PassKind::Composite, { program, "addStyle" },
+        f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" },
             joined(
                 { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
                     of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros") },
                 graph::together("style",
-                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", style.inflation),
-                        value("softness", style.softness), value("red", style.brightness.x),
-                        value("green", style.brightness.y), value("blue", style.brightness.z),
+                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", style.inflation.constant),
+                        value("softness", style.softness.constant), value("red", style.brightness.constant.x),
+                        value("green", style.brightness.constant.y), value("blue", style.brightness.constant.z),
                         value("weight", weight) }),
                 Arguments { updates("share", share_) }));
     }
 
     void light(graph::Handle<Radiance>& radiance)
     {
-        f_.pixels("composite", PassKind::Composite, { program, "styledLight" },
+        f_.pixels("composite", PassKind::Composite, { stylesProgram, "styledLight" },
             joined({ f_.frame() }, ofLight(), at_.arguments(),
                 graph::together(
                     "reflectances", { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular) }),

@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "host/scene/shadow_style.h"
+
 /// What is to be rendered, as plain data in world space. Units: metres, radiance in W/(m^2 sr), linear Rec.709.
 namespace wedge::scene {
 
@@ -56,19 +58,6 @@ struct AreaLight {
     LightProfile profile = LightProfile::Gaussian;
     float cut = 2.0f; ///< half extent in standard deviations; a uniform light ignores it
     bool twoSided = false, visible = true;
-};
-
-/// How a light's hard shadow is drawn; docs/stylized-shadows.md has the equations. A light may have several, each of a
-/// share of its light.
-struct ShadowStyle {
-    float weight = 1.0f; ///< its share; those of a light add up to 1
-    float inflation = 0.0f; ///< metres that the edge moves outwards
-    float softness = 0.0f; ///< metres over which the edge goes from dark to bright
-    float abstraction = 0.0f; ///< metres: standard deviation of what smooths the shadow's outline
-    glm::vec3 brightness { 0.0f }; ///< of the light, what is left in shadow, 0 to 1
-    bool keepArea = true; ///< a smoothed shadow is as large as before
-
-    bool operator==(const ShadowStyle&) const = default;
 };
 
 struct PointLight {

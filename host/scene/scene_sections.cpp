@@ -11,6 +11,7 @@
 #include "host/scene/rounding.h"
 #include "host/scene/sections.h"
 #include "host/scene/single_precision.h"
+#include "host/scene/style_section.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
@@ -18,8 +19,6 @@ namespace {
 
 /// Of a light's half edge its middle may be off by so much.
 constexpr double lightOff = 0.02;
-/// Weights of a light's styles add up to 1 within this.
-constexpr double weightsOff = 1e-4;
 
 /// Where a light's keys, [[light.key]], put it at a time: as a mesh's do.
 class LightPose {
@@ -76,52 +75,6 @@ FileVector readQuadShape(TableReader& table, AreaLight& light)
         return readPlace(table, "centre");
     }
     table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
-}
-
-/// One [[light.style]]. several: it has to say what its share is.
-ShadowStyle readStyle(TableReader& table, bool several)
-{
-    ShadowStyle style;
-    const auto length = [&](const char* key, double least) {
-        return static_cast<float>(table.number(key, least, maxCoordinate).value_or(0.0));
-    };
-    const std::optional<double> weight = table.number("weight", 0.0, 1.0);
-    style.weight = static_cast<float>(several ? table.require("weight", weight) : weight.value_or(1.0));
-    style.inflation = length("inflation", -maxCoordinate);
-    style.softness = length("softness", 0.0);
-    style.abstraction = length("abstraction", 0.0);
-    style.brightness = table.colour("brightness").value_or(style.brightness);
-    const float brightest = std::max({ style.brightness.x, style.brightness.y, style.brightness.z });
-    if (!(brightest <= 1.0f))
-        table.fail("brightness", "is out of range", fmt::format("{:g}", brightest), "use 0 to 1");
-    style.keepArea = table.boolean("keep_area").value_or(style.keepArea);
-    table.finish();
-    return style;
-}
-
-bool changesNothing(const ShadowStyle& style)
-{
-    return style.inflation == 0.0f && style.softness == 0.0f && style.abstraction == 0.0f
-        && style.brightness == glm::vec3(0.0f);
-}
-
-/// Those of a light whose shadows are hard; none where they change nothing, whatever their weights.
-std::vector<ShadowStyle> readStyles(TableReader& light)
-{
-    std::vector<TableReader> tables = light.tables("style");
-    std::vector<ShadowStyle> styles;
-    styles.reserve(tables.size());
-    double sum = 0.0;
-    for (TableReader& table : tables) {
-        styles.push_back(readStyle(table, tables.size() > 1));
-        sum += double { styles.back().weight };
-    }
-    if (!styles.empty() && !(std::abs(sum - 1.0) <= weightsOff))
-        light.fail("style", "has weights that do not add up to 1", fmt::format("{:g}", sum),
-            "give each its share of the light");
-    if (std::ranges::all_of(styles, changesNothing))
-        styles.clear();
-    return styles;
 }
 
 void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings& warnings)

@@ -3,8 +3,6 @@
 // in      frame, BVH, the lights, G-buffer
 // in out  lit (3 planes, radiance), rays
 #include "light/delta_light.h"
-#include "light/light_packet.h"
-#include "trace/packet.h"
 
 #include "pass/deltaLights.h"
 #ifdef PASS_deltaLights
@@ -23,13 +21,8 @@ __kernel void deltaLights(PARAMETERS)
         const DeltaLight light = lights[k];
         RayPacket packet;
         float cosine[WEDGE_PACKET_SIZE];
+        deltaShadowRays(light, sceneDiameter, &receivers, &packet, cosine);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const Vec3 start = vec3(receivers.originX[lane], receivers.originY[lane], receivers.originZ[lane]);
-            const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
-            const Vec3 toLight = vectorToLight(light, sceneDiameter, start);
-            cosine[lane] = vecDot(n, vecNormalize(toLight));
-            setRay(&packet, lane, start, toLight, 0.0f, cosine[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
-            setTime(&packet, lane, receiverTime(&receivers, lane));
             traced[lane] += cosine[lane] > 0.0f ? 1u : 0u;
         }
         anyHits(nodes, blocks, &packet, occluded);

@@ -1,4 +1,4 @@
-// Hard shadows that are drawn in a style (kernels/light/styled_shadows.cl).
+// Hard shadows that are drawn in a style (kernels/light/shadow_edges.cl, shadow_distance.cl, shadow_styles.cl).
 #ifndef WEDGE_SHARED_STYLED_SHADOWS_H
 #define WEDGE_SHARED_STYLED_SHADOWS_H
 

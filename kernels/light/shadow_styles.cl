@@ -1,0 +1,119 @@
+// Hard shadows in a style: what of a surface lies how far from their edges, how much of the light is left there, and
+// what it brings. docs/stylized-shadows.md
+#include "core/formats.h"
+#include "light/delta_light.h"
+#include "shared/filter_params.h"
+#include "shared/styled_shadows.h"
+
+/// How much of what is seen lies at each distance, and how much in shadow, m^2: of stripes of rows.
+///
+/// in   p, of the whole image; distance: smoothed; matte, pixelSize; stripes; range: metres that are told apart to
+///      either side of 0
+/// out  areas: WEDGE_AREA_NUMBERS a stripe
+#include "pass/countAreas.h"
+#ifdef PASS_countAreas
+__kernel void countAreas(PARAMETERS)
+{
+    const uint stripe = (uint)get_global_id(0);
+    if (stripe >= stripes) {
+        return;
+    }
+    __global float* own = areas + WEDGE_AREA_NUMBERS * stripe;
+    for (uint k = 0u; k < WEDGE_AREA_NUMBERS; ++k) {
+        own[k] = 0.0f;
+    }
+    const float perClass = 0.5f * (float)WEDGE_AREA_BINS / range;
+    for (uint y = stripe; y < p.height; y += stripes) {
+        for (uint x = 0u; x < p.width; ++x) {
+            const uint i = pixelIndex(x, y, p.stride);
+            const float v = matte[i], area = pixelSize[i] * pixelSize[i];
+            if (v >= 0.0f) {
+                const float at = clamp((distance[i] + range) * perClass, 0.0f, (float)WEDGE_AREA_BINS - 1.0f);
+                own[(uint)at] += area;
+                own[v < 0.5f ? WEDGE_AREA_BINS : WEDGE_AREA_BINS + 1u] += area;
+            }
+        }
+    }
+}
+#endif
+
+/// The distance below which as much lies as was in shadow.
+///
+/// in   areas, stripes, range: as of countAreas(); items: 1
+/// out  zeros: that one number, metres; 0 where all or nothing is in shadow
+#include "pass/keepArea.h"
+#ifdef PASS_keepArea
+__kernel void keepArea(PARAMETERS)
+{
+    if (get_global_id(0) >= items) {
+        return;
+    }
+    float shadow = 0.0f, light = 0.0f;
+    for (uint stripe = 0u; stripe < stripes; ++stripe) {
+        shadow += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS];
+        light += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS + 1u];
+    }
+    zeros[0] = 0.0f;
+    float below = 0.0f;
+    for (uint k = 0u; k < WEDGE_AREA_BINS && shadow > 0.0f && light > 0.0f; ++k) {
+        float here = 0.0f;
+        for (uint stripe = 0u; stripe < stripes; ++stripe) {
+            here += areas[WEDGE_AREA_NUMBERS * stripe + k];
+        }
+        if (below + here >= shadow) {
+            const float at = (float)k + (shadow - below) / here;
+            zeros[0] = at * (2.0f * range / (float)WEDGE_AREA_BINS) - range;
+            return;
+        }
+        below += here;
+    }
+}
+#endif
+
+/// Adds a style's share of light.
+///
+/// in      p; distance: metres, or the matte; offset: what of it is the edge; zeros: and a number more, where there is
+///         one; inflation, softness: metres; red, green, blue: what is left in shadow; weight
+/// in out  share: R G B, of the light
+#include "pass/addStyle.h"
+#ifdef PASS_addStyle
+__kernel void addStyle(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const float d = LOAD_distance(p.planeSize, i) - offset - LOAD_zeros(1u, 0u);
+    // smoothstep() is undefined without a width.
+    const float t = clamp((d - inflation) / fmax(softness, 1e-30f) + 0.5f, 0.0f, 1.0f);
+    const float soft = t * t * (3.0f - 2.0f * t), hard = d > inflation ? 1.0f : 0.0f;
+    const float f = softness > 0.0f ? soft : hard;
+    const Vec3 left = vec3(red, green, blue), rest = vec3(1.0f - red, 1.0f - green, 1.0f - blue);
+    const Vec3 light = vecMad(left, rest, f);
+    STORE_share(p.planeSize, i, vecMad(LOAD_share(p.planeSize, i), light, weight));
+}
+#endif
+
+/// The light of a light whose shadows have a style.
+///
+/// in      frame, receivers, diffuse, specular; lights, of which lightIndex is the one; matte; share: R G B, of it
+/// in out  lit (3 planes, radiance)
+#include "pass/styledLight.h"
+#ifdef PASS_styledLight
+__kernel void styledLight(PARAMETERS)
+{
+    WEDGE_PIXEL(frame, x, y, i);
+    if (objectId[i] == 0u || LOAD_matte(frame.planeSize, i) < 0.0f) { // faces away, or was not come to
+        return;
+    }
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    const Receiver r = loadReceiver(frame, data, i);
+    const DeltaLight light = lights[lightIndex];
+    const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
+    const float cosine = vecDot(r.normal, vecNormalize(toLight));
+    if (!(cosine > 0.0f)) {
+        return;
+    }
+    const Vec3 all = deltaLightAt(
+        light, r, toLight, cosine, loadVec(diffuse, frame.planeSize, i), loadVec(specular, frame.planeSize, i));
+    const Vec3 left = vecMul(all, LOAD_share(frame.planeSize, i));
+    storeVec(lit, frame.planeSize, i, vecAdd(loadVec(lit, frame.planeSize, i), left));
+}
+#endif

@@ -1,0 +1,121 @@
+// shadow_styles.cl, kernel by kernel, against the host in double.
+#include "tests/shadow_bench.h"
+
+using namespace wedge;
+using namespace wedge::test;
+using namespace wedge::test::shadows;
+
+TEST_CASE("countAreas and keepArea: the distance below which as much lies as was in shadow")
+{
+    onEveryDevice([](const device::Device& device) {
+        Traced traced(device);
+        const Seen s(traced);
+        PassBench count(traced.frame, "countAreas"), keep(traced.frame, "keepArea");
+        traced.give(count);
+        std::mt19937 random(1);
+        const Planes<float> distance =
+            planesOf(traced.frame.layout, someNumbers(random, traced.frame.layout.size, -0.1, 0.17));
+        count.plane("distance", distance);
+        count.run();
+        keep.plane("areas", count.read<float>("areas"));
+        keep.run();
+        const double zero = keep.read<float>("zeros").at(0), range = count.own<float>("range");
+        CHECK(range == doctest::Approx(3 * abstraction));
+        double shadow = 0, below = 0, all = 0;
+        everyPixel(traced.frame.layout, [&](int x, int y) {
+            const double area = std::pow(double { s.size.at(x, y) }, 2), v = s.matte.at(x, y);
+            all += v >= 0 ? area : 0;
+            shadow += v == 0 ? area : 0;
+            below += v >= 0 && distance.at(x, y) <= zero ? area : 0;
+        });
+        CHECK(shadow > 0.05 * all);
+        CHECK(std::abs(zero) < range);
+        CHECK(below == doctest::Approx(shadow).epsilon(0.01)); // a class has a few pixels
+        // All in shadow, or nothing: the edge stays.
+        for (const float v : { WEDGE_MATTE_LIT, WEDGE_MATTE_SHADOW }) {
+            count.plane("matte", std::vector<float>(traced.frame.layout.size, v));
+            count.run();
+            keep.plane("areas", count.read<float>("areas"));
+            keep.run();
+            CHECK(keep.read<float>("zeros").at(0) == 0);
+        }
+    });
+}
+
+TEST_CASE("addStyle: from what is left in shadow to all, softly or at once")
+{
+    onEveryDevice([](const device::Device& device) {
+        Traced traced(device);
+        std::mt19937 random(1);
+        const std::size_t size = traced.frame.layout.size;
+        const Planes<float> distance = planesOf(traced.frame.layout, someNumbers(random, size, -0.2, 0.3));
+        const Planes<float> share = planesOf(traced.frame.layout, someNumbers(random, 3 * size));
+        for (const float width : { 0.1f, 0.0f }) {
+            CAPTURE(width);
+            PassBench bench(traced.frame, "addStyle");
+            bench.plane("distance", distance);
+            bench.plane("share", share);
+            bench.plane("zeros", std::vector<float> { 0.02f });
+            bench.value("softness", width);
+            bench.value("weight", 0.25f);
+            bench.run();
+            const auto after = bench.pixels<float>("share");
+            const glm::dvec3 left(0.1f, 0.2f, 0.3f);
+            double worst = 0;
+            everyPixel(traced.frame.layout, [&](int x, int y) {
+                const double d = double { distance.at(x, y) } - double { 0.02f } - double { inflation };
+                const double t = std::clamp(d / double { width } + 0.5, 0.0, 1.0);
+                const double f = width > 0 ? t * t * (3 - 2 * t) : d > 0 ? 1 : 0;
+                const glm::dvec3 expected = share.vector(x, y) + 0.25 * (left + (1.0 - left) * f);
+                worst = std::max(worst, glm::length(after.vector(x, y) - expected));
+            });
+            CHECK(worst < 1e-6);
+        }
+    });
+}
+
+TEST_CASE("styledLight: what the light brings where nothing hides it, times the share that is left")
+{
+    onEveryDevice([](const device::Device& device) {
+        Traced traced(device);
+        const Seen s(traced);
+        PassBench bench(traced.frame, "styledLight");
+        for (const char* name : { "position", "normal", "origin", "diffuse", "specular" })
+            bench.plane(name, traced.primary.read<float>(name));
+        for (const char* name : { "geometric", "objectId", "gloss" })
+            bench.plane(name, traced.primary.read<std::uint32_t>(name));
+        std::vector<float> matte = traced.matte.read<float>("matte");
+        for (std::size_t i = 0; i < matte.size(); i += 5) // no ray came to these before the frame was stopped
+            matte[i] = WEDGE_MATTE_UNKNOWN;
+        bench.plane("matte", matte);
+        const auto known = bench.pixels<float>("matte");
+        std::mt19937 random(1);
+        bench.plane("share", someNumbers(random, 3 * traced.frame.layout.size, 0, 1));
+        bench.plane("lit", someNumbers(random, 3 * traced.frame.layout.size));
+        const auto before = bench.pixels<float>("lit"), share = bench.pixels<float>("share");
+        const auto diffuse = bench.pixels<float>("diffuse"), specular = bench.pixels<float>("specular");
+        const glm::dvec3 eye = toGlm(bench.own<shared::FrameParams>("frame").eye);
+        bench.run();
+        const auto after = bench.pixels<float>("lit");
+        const double m = 12; // of Blinn and Phong's lobe, docs/materials.md
+        const double scale = (m + 2) * (m + 4) / (8 * std::numbers::pi * (std::exp2(-0.5 * m) + m));
+        unsigned lit = 0, away = 0;
+        everyPixel(traced.frame.layout, [&](int x, int y) {
+            const glm::dvec3 added = after.vector(x, y) - before.vector(x, y), n = s.normal.vector(x, y);
+            const double cosine = glm::dot(n, sunward);
+            if (s.object.at(x, y) == 0 || cosine <= 0 || known.at(x, y) < 0) {
+                REQUIRE(added == glm::dvec3(0));
+                ++away;
+                return;
+            }
+            const glm::dvec3 view = glm::normalize(eye - s.position.vector(x, y));
+            const double lobe = scale * std::pow(std::max(glm::dot(n, glm::normalize(view + sunward)), 0.0), m);
+            const glm::dvec3 reflected = diffuse.vector(x, y) / std::numbers::pi + lobe * specular.vector(x, y);
+            const glm::dvec3 expected = share.vector(x, y) * irradiance * cosine * reflected;
+            REQUIRE(glm::length(added - expected) <= 1e-4 * (1 + glm::length(expected)));
+            ++lit;
+        });
+        CHECK(lit > 1000);
+        CHECK(away > 300);
+    });
+}
