@@ -12,6 +12,7 @@
 #include "kernels/shared/material.h"
 #include "kernels/shared/path.h"
 #include "kernels/shared/pixel_grid.h"
+#include "kernels/shared/styled_shadows.h"
 #include "kernels/shared/temporal.h"
 #include "kernels/shared/wave.h"
 #include "tests/render_support.h"

@@ -1,4 +1,5 @@
 // shadow_styles.cl, kernel by kernel, against the host in double.
+#include "effects/styled_shadows/style_knobs.h"
 #include "tests/shadow_bench.h"
 
 using namespace wedge;
@@ -56,7 +57,7 @@ TEST_CASE("addStyle: from what is left in shadow to all, softly or at once")
             bench.plane("distance", distance);
             bench.plane("share", share);
             bench.plane("zeros", std::vector<float> { 0.02f });
-            bench.value("softness", width);
+            bench.value("softness", shared::StyleKnob { width, 0, 0, width, width });
             bench.value("weight", 0.25f);
             bench.run();
             const auto after = bench.pixels<float>("share");

@@ -140,15 +140,18 @@ bool ofFrames(render::Renderer& renderer, const OfFrame& visit)
 /// The same of frames whose lights' shadows have a style, which those of several receivers a pixel cannot.
 bool ofStyles(const device::Device& device, const OfFrame& visit)
 {
-    const scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/styled.toml");
-    for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
-        render::Options options;
-        options.traversal = family;
-        render::Renderer renderer(scene, device, options);
-        Settings settings = render::monteCarlo(1);
-        settings.width = settings.height = 16;
-        if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {
-            return false;
+    scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/styled.toml");
+    for (const float away : { 0.0f, 0.1f }) { // by how far away what throws the shadow is
+        scene.directionalLights.front().styles.front().abstraction.linear = away;
+        for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
+            render::Options options;
+            options.traversal = family;
+            render::Renderer renderer(scene, device, options);
+            Settings settings = render::monteCarlo(1);
+            settings.width = settings.height = 16;
+            if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {
+                return false;
+            }
         }
     }
     return true;

@@ -52,6 +52,25 @@ TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a l
               .styles.empty());
 }
 
+TEST_CASE("knobs that go by how far away what throws the shadow is")
+{
+    using wedge::scene::Knob;
+    const Scene scene = load(sun
+        + "[[light.style]]\ninflation = { at = [0.5, -0.25, 2] }\nsoftness = { at = [-1, 0, 3] }\n"
+          "abstraction = { at = [0.5, 0, 0] }\nbrightness = { at = [0, 0.5, -0.25] }\n");
+    const wedge::scene::ShadowStyle& style = scene.directionalLights[0].styles.at(0);
+    CHECK(style.inflation == Knob<float>(0.5f, -0.25f, 2));
+    CHECK(style.softness == Knob<float>(-1, 0, 3));
+    CHECK(style.abstraction == Knob<float>(0.5f));
+    CHECK_FALSE(style.abstraction.varies());
+    CHECK(style.brightness == Knob<glm::vec3>(glm::vec3(0), glm::vec3(0.5f), glm::vec3(-0.25f)));
+    const Scene tinted = load(sun + "[[light.style]]\nbrightness = { at = [[0, 0.5, 1], [1, 2, 3], [-1, 0, 1]] }\n");
+    CHECK(tinted.directionalLights[0].styles.at(0).brightness
+        == Knob<glm::vec3>(glm::vec3(0, 0.5f, 1), glm::vec3(1, 2, 3), glm::vec3(-1, 0, 1)));
+    CHECK(load(sun + "[[light.style]]\ninflation = { at = [0, 0, 0] }\n").directionalLights[0].styles.empty());
+    CHECK(load(sun + "[[light.style]]\ninflation = { at = [0, 0, 1] }\n").directionalLights[0].styles.size() == 1);
+}
+
 TEST_CASE("what is wrong in a style is told with its place")
 {
     const auto says = [](const std::string& style, const std::string& what) {
@@ -72,6 +91,17 @@ TEST_CASE("what is wrong in a style is told with its place")
         style + "weight = 0.5\n" + style + "weight = 0.4\n", "style of light has weights that do not add up to 1: 0.9");
     says(style + "weight = 0.5\n" + style + "inflation = 1\n", "light.style lacks a key: weight");
     says("style = 1\n", "style of light must be a table");
+    says(style + "inflation = { at = [1, 2] }\n", "s.toml:7:20: at of light.style.inflation must have 3 numbers");
+    says(style + "softness = { at = [1, 2, 3, 4] }\n", "at of light.style.softness must have 3 numbers");
+    says(style + "softness = { at = [1, nan, 3] }\n", "at of light.style.softness is not finite");
+    says(style + "inflation = { at = [0, 1e13, 0] }\n", "at of light.style.inflation is out of range: 1e+13");
+    says(style + "inflation = { to = [0, 1, 0] }\n", "light.style.inflation lacks a key: at");
+    says(style + "inflation = { at = [0, 1, 0], key = 1 }\n", "unknown key in light.style.inflation: 'key'");
+    says(style + "softness = { at = [-1, 0, 0] }\n", "softness of light.style is out of range: -1");
+    says(style + "brightness = { at = [0, 1, 0, 1] }\n",
+        "at of light.style.brightness must have three numbers or three colours: 4 numbers");
+    says(style + "brightness = { at = [-0.5, 0, 0] }\n", "brightness of light.style is out of range: -0.5");
+    says(style + "weight = { at = [1, 0, 0] }\n", "weight of light.style must be a number");
     const scene_test::TemporaryFolder folder;
     const std::string quad = scene_test::errorOf(folder.write("s.toml",
         "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n"

@@ -2,19 +2,15 @@
 
 #include "host/error.h"
 #include "host/render/distributed_samples.h"
-#include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include <fmt/format.h>
 
 namespace wedge::render {
 namespace {
 
-/// Beyond it the transfer function is saturated; and as much again, so that rounding and blur find no end.
-constexpr float headroom = 2.0f;
 /// Characters of a light's name in those of layers, which files cut where they are long.
 constexpr std::size_t longestName = 64;
 
@@ -76,17 +72,6 @@ void requireStylable(const Settings& settings, const scene::Scene& scene)
             fmt::format("style of light {}", lights.front().called),
             "add --no-style, or leave out --antialias, --progressive, the lens and what moves");
     }
-}
-
-float mostDistance(std::span<const scene::ShadowStyle> styles)
-{
-    float most = 0.0f;
-    for (const scene::ShadowStyle& style : styles) {
-        most = std::max(most,
-            std::abs(style.inflation.constant) + 0.5f * style.softness.constant
-                + WEDGE_STYLE_CUT * style.abstraction.constant);
-    }
-    return headroom * most;
 }
 
 } // namespace wedge::render

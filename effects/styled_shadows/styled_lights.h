@@ -25,8 +25,4 @@ std::vector<StyledLight> styledLights(const Settings& settings, const scene::Sce
 /// Throws UsageError where there are any and pixels have several receivers: shadows are drawn of one point a pixel.
 void requireStylable(const Settings& settings, const scene::Scene& scene);
 
-/// Metres from a shadow's edge beyond which no style tells distances apart, at least 0: twice |inflation| +
-/// softness / 2 + 3 abstraction, of the style that has most.
-float mostDistance(std::span<const scene::ShadowStyle> styles);
-
 } // namespace wedge::render

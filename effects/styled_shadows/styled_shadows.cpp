@@ -1,5 +1,6 @@
 #include "effects/styled_shadows/styled_shadows.h"
 
+#include "effects/styled_shadows/style_knobs.h"
 #include "effects/styled_shadows/styled_lights.h"
 #include "host/graph/lists.h"
 #include "kernels/shared/styled_shadows.h"
@@ -39,6 +40,9 @@ public:
         : f_(frame)
         , at_(at)
         , light_(light)
+        , varies_(std::ranges::any_of(light.styles, variesByOccluder))
+        , farthest_(varies_ ? farthestOccluder(frame.description, light.index) : 0.0f)
+        , largest_(mostDistance(light.styles, farthest_))
     {
     }
 
@@ -46,9 +50,8 @@ public:
     void declare(graph::Handle<Radiance>& radiance)
     {
         matte();
-        const float largest = mostDistance(light_.styles);
-        if (largest > 0.0f) {
-            distances(largest);
+        if (largest_ > 0.0f) {
+            distances();
         }
         shares();
         light(radiance);
@@ -84,13 +87,19 @@ private:
     {
         matte_ = f_.graph.plane<Matte>("shadow's matte", graph::floats);
         f_.fill("unknown", matte_, WEDGE_MATTE_UNKNOWN);
+        if (varies_) {
+            occluder_ = f_.graph.plane<Metres>("what hides a light", graph::floats);
+            f_.zero(occluder_);
+        }
         at_.trace("shadows in a style", { edgesProgram, "shadowMatte" },
             joined({ at_.frame() }, ofLight(), f_.hierarchy(), at_.arguments(),
-                Arguments { updates("matte", matte_), at_.tallyRays() }),
+                Arguments { updates("matte", matte_),
+                    varies_ ? updates("occluder", occluder_) : graph::absent("occluder"), value("farthest", farthest_),
+                    at_.tallyRays() }),
             [](const Launch&) { return 1.0; });
     }
 
-    void distances(float largest)
+    void distances()
     {
         const auto tilesAlong = [](int pixels) {
             return std::max((static_cast<std::uint32_t>(pixels) + WEDGE_EDGE_TILE - 2) / WEDGE_EDGE_TILE, 1u);
@@ -110,7 +119,8 @@ private:
             f_.graph.list<Edges>("edges of shadows", graph::floats, std::uint64_t { capacity } * WEDGE_EDGE_FLOATS);
         f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "listEdges" }, tiles,
             joined(cells,
-                Arguments { reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
+                Arguments {
+                    occluder(), reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
         const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
         auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
         const Arguments listed { reads("edges", edges), reads("listed", places.listed),
@@ -120,13 +130,24 @@ private:
         const Arguments facing = graph::together(
             "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
+        if (varies_) {
+            away_ = f_.graph.plane<Metres>("what hides a light, around shadows", graph::floats);
+        }
         f_.blocks("distances to shadows' edges", PassKind::Analysis, { distanceProgram, "shadowDistance" },
-            joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_) },
+            joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_), occluder() },
                 graph::together("edges",
                     joined(listed,
                         Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),
-                Arguments {
-                    value("unit", unitOf(largest)), value("largest", largest), writes("distance", distance_) }));
+                Arguments { value("unit", unitOf(largest_)), value("largest", largest_), value("farthest", farthest_),
+                    writes("distance", distance_), varies_ ? writes("away", away_) : graph::absent("away") }));
+    }
+
+    graph::Argument occluder() const { return varies_ ? reads("occluder", occluder_) : graph::absent("occluder"); }
+    /// How far away what hides the light is, for a style that goes by it: at a pixel, or around its shadow.
+    graph::Argument away(const scene::ShadowStyle& style) const
+    {
+        return variesByOccluder(style) ? reads("away", distance_.graph != 0 ? away_ : occluder_)
+                                       : graph::absent("away");
     }
 
     /// What all styles leave of the light.
@@ -152,17 +173,18 @@ private:
     Smoothed smoothed(const scene::ShadowStyle& style)
     {
         Smoothed out { distance_, {} };
-        if (!(style.abstraction.constant > 0.0f)) {
+        const shared::StyleKnob deviation = abstractionOf(style);
+        const float most = mostOf(deviation, farthest_);
+        if (!(most > 0.0f)) {
             return out;
         }
         out.distance = f_.graph.plane<Metres>("smoothed distances", graph::floats);
         f_.blocks("blur of shadows' edges", PassKind::Filter, { distanceProgram, "smoothDistance" },
             joined({ f_.frame() }, surfaces(graph::wholeImage),
-                Arguments { reads("distance", distance_, graph::wholeImage),
-                    value("deviation", style.abstraction.constant), value("largest", mostDistance(light_.styles)),
-                    writes("smoothed", out.distance) }));
+                Arguments { reads("distance", distance_, graph::wholeImage), away(style), value("deviation", deviation),
+                    value("largest", largest_), writes("smoothed", out.distance) }));
         if (style.keepArea) {
-            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * style.abstraction.constant);
+            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * most);
         }
         return out;
     }
@@ -191,11 +213,11 @@ private:
         f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" },
             joined(
                 { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
-                    of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros") },
+                    of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(style) },
                 graph::together("style",
-                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", style.inflation.constant),
-                        value("softness", style.softness.constant), value("red", style.brightness.constant.x),
-                        value("green", style.brightness.constant.y), value("blue", style.brightness.constant.z),
+                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", inflationOf(style)),
+                        value("softness", softnessOf(style)), value("red", brightnessOf(style, 0)),
+                        value("green", brightnessOf(style, 1)), value("blue", brightnessOf(style, 2)),
                         value("weight", weight) }),
                 Arguments { updates("share", share_) }));
     }
@@ -223,7 +245,11 @@ private:
     FrameBuilder& f_;
     ReceiverSet& at_;
     const StyledLight& light_;
+    const bool varies_; ///< some style goes by how far away what hides the light is
+    const float farthest_; ///< metres, that it is
+    const float largest_; ///< metres, of distances that are told apart
     graph::Handle<Matte> matte_;
+    graph::Handle<Metres> occluder_, away_; ///< of no graph where nothing goes by them
     graph::Handle<Metres> distance_; ///< of no graph where no style moves or softens edges
     graph::Handle<Share> share_;
 };

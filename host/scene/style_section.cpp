@@ -14,23 +14,67 @@ namespace {
 /// Weights of a light's styles add up to 1 within this.
 constexpr double weightsOff = 1e-4;
 
+/// The coefficients under the key, constant first: a list of three, or where they may be colours of nine.
+std::vector<double> readQuadratic(TableReader& table, const std::string& key, bool colours)
+{
+    std::vector<double> at;
+    for (TableReader& quadratic : table.tables(key)) {
+        at = quadratic.require("at", quadratic.numbers("at", 3, colours ? 9 : 3));
+        if (at.size() != 3 && at.size() != 9)
+            quadratic.fail("at", "must have three numbers or three colours", fmt::format("{} numbers", at.size()),
+                "give at as [a, b, c], of a + b d + c d^2, d in metres");
+        for (const double coefficient : at) {
+            if (!(std::abs(coefficient) <= maxCoordinate))
+                quadratic.fail("at", "is out of range", fmt::format("{:g}", coefficient), "use -1e12 to 1e12");
+        }
+        quadratic.finish();
+    }
+    return at;
+}
+
+/// A length: a number, or { at = [a, b, c] }.
+Knob<float> readLength(TableReader& table, const std::string& key, double least)
+{
+    if (!table.isTable(key))
+        return static_cast<float>(table.number(key, least, maxCoordinate).value_or(0.0));
+    const std::vector<double> at = readQuadratic(table, key, false);
+    const Knob<float> knob(static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]));
+    if (!knob.varies() && !(at[0] >= least))
+        table.fail(key, "is out of range", fmt::format("{:g}", at[0]), fmt::format("use {:g} to 1e12", least));
+    return knob;
+}
+
+/// What is left of the light: a number or a colour, or such for each coefficient.
+Knob<glm::vec3> readBrightness(TableReader& table)
+{
+    Knob<glm::vec3> knob;
+    if (table.isTable("brightness")) {
+        const std::vector<double> at = readQuadratic(table, "brightness", true);
+        const auto colour = [&](std::size_t k) {
+            return at.size() == 3 ? glm::vec3(glm::dvec3(at[k]))
+                                  : glm::vec3(glm::dvec3(at[3 * k], at[3 * k + 1], at[3 * k + 2]));
+        };
+        knob = { colour(0), colour(1), colour(2) };
+    } else {
+        knob = table.colour("brightness").value_or(glm::vec3(0.0f));
+    }
+    const glm::vec3& left = knob.constant;
+    const float least = std::min({ left.x, left.y, left.z }), most = std::max({ left.x, left.y, left.z });
+    if (!knob.varies() && !(least >= 0.0f && most <= 1.0f))
+        table.fail("brightness", "is out of range", fmt::format("{:g}", least < 0.0f ? least : most), "use 0 to 1");
+    return knob;
+}
+
 /// One [[light.style]]. several: it has to say what its share is.
 ShadowStyle readStyle(TableReader& table, bool several)
 {
     ShadowStyle style;
-    const auto length = [&](const char* key, double least) {
-        return static_cast<float>(table.number(key, least, maxCoordinate).value_or(0.0));
-    };
     const std::optional<double> weight = table.number("weight", 0.0, 1.0);
     style.weight = static_cast<float>(several ? table.require("weight", weight) : weight.value_or(1.0));
-    style.inflation = length("inflation", -maxCoordinate);
-    style.softness = length("softness", 0.0);
-    style.abstraction = length("abstraction", 0.0);
-    const glm::vec3 left = table.colour("brightness").value_or(glm::vec3(0.0f));
-    const float brightest = std::max({ left.x, left.y, left.z });
-    if (!(brightest <= 1.0f))
-        table.fail("brightness", "is out of range", fmt::format("{:g}", brightest), "use 0 to 1");
-    style.brightness = left;
+    style.inflation = readLength(table, "inflation", -maxCoordinate);
+    style.softness = readLength(table, "softness", 0.0);
+    style.abstraction = readLength(table, "abstraction", 0.0);
+    style.brightness = readBrightness(table);
     style.keepArea = table.boolean("keep_area").value_or(style.keepArea);
     table.finish();
     return style;

@@ -64,6 +64,12 @@ bool TableReader::isList(const std::string& key)
     return node != nullptr && node->is_array();
 }
 
+bool TableReader::isTable(const std::string& key)
+{
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_table();
+}
+
 bool TableReader::isBoolean(const std::string& key)
 {
     const toml::node* node = find(key);

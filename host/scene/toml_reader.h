@@ -20,6 +20,7 @@ public:
 
     bool has(const std::string& key);
     bool isList(const std::string& key);
+    bool isTable(const std::string& key);
     bool isBoolean(const std::string& key);
     const std::string& name() const { return name_; }
 

@@ -102,9 +102,16 @@ WEDGE_FN float16 nearestSquare(const EdgeBlock* b, float most)
     return nearest;
 }
 
-/// Adds the sum of len r^-8 over a chunk of edges within a reach of each lane, in units of 1 / perUnit metres, one by
-/// one: what chunks they are in does not show in the sum's bits.
-WEDGE_INLINE float16 addChunk(const EdgeBlock* b, uint chunk, float perUnit, float16 reachSquare, float16 sum)
+/// Sums over edges, one by one: what chunks they are in does not show in their bits.
+typedef struct {
+    float16 weights; ///< of len r^-8
+    float16 away; ///< of that times how far what hides the light is away, in units of their own
+} EdgeSums;
+
+/// Adds a chunk of edges within a reach of each lane, in units of 1 / perUnit metres. perAway: 1 over the unit of what
+/// is away, 1/m; 0 where nothing goes by it.
+WEDGE_INLINE void addChunk(
+    const EdgeBlock* b, uint chunk, float perUnit, float16 reachSquare, const float perAway, EdgeSums* sums)
 {
     const uint begin = chunk * WEDGE_EDGE_CHUNK, end = min(begin + WEDGE_EDGE_CHUNK, b->count);
     for (uint k = begin; k < end; ++k) {
@@ -113,16 +120,20 @@ WEDGE_INLINE float16 addChunk(const EdgeBlock* b, uint chunk, float perUnit, flo
         const float16 inverse = 1.0f / max16(square * (perUnit * perUnit), (float16)(WEDGE_LEAST_SQUARE));
         const float16 squared = inverse * inverse;
         const int16 counts = facesAs(b, piece) & (square <= reachSquare);
-        sum += counts ? piece.s6 * perUnit * (squared * squared) : (float16)(0.0f);
+        const float16 weight = counts ? piece.s6 * perUnit * (squared * squared) : (float16)(0.0f);
+        sums->weights += weight;
+        if (perAway > 0.0f) {
+            sums->away += weight * (piece.s7 * perAway);
+        }
     }
-    return sum;
 }
 
-/// That sum over all edges.
-WEDGE_FN float16 edgeSum(const EdgeBlock* b, float perUnit, float16 reachSquare)
+/// Those of all edges.
+WEDGE_FN EdgeSums edgeSums(const EdgeBlock* b, float perUnit, float16 reachSquare, const float perAway)
 {
     const float most = largestOf(reachSquare);
-    float16 sum = (float16)(0.0f);
+    EdgeSums sums;
+    sums.weights = sums.away = (float16)(0.0f);
     float squares[16];
     for (uint begin = 0u; begin < b->count; begin += 16u * WEDGE_EDGE_CHUNK) {
         const float16 all = boxSquares(b, begin / WEDGE_EDGE_CHUNK);
@@ -132,11 +143,11 @@ WEDGE_FN float16 edgeSum(const EdgeBlock* b, float perUnit, float16 reachSquare)
         vstore16(all, 0, squares);
         for (uint k = 0u; k < 16u; ++k) {
             if (squares[k] <= most) {
-                sum = addChunk(b, begin / WEDGE_EDGE_CHUNK + k, perUnit, reachSquare, sum);
+                addChunk(b, begin / WEDGE_EDGE_CHUNK + k, perUnit, reachSquare, perAway, &sums);
             }
         }
     }
-    return sum;
+    return sums;
 }
 
 /// The length of all edges that count for each lane, whatever their distance, in those units.

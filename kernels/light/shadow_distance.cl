@@ -2,6 +2,7 @@
 #include "core/formats.h"
 #include "core/vector16.h"
 #include "light/near_edges.h"
+#include "light/style_knob.h"
 #include "light/unmapped_normals.h"
 #include "shared/filter_params.h"
 
@@ -10,9 +11,15 @@
 /// times the distance of the nearest one, or of the largest that is told apart. As published all of them count, and the
 /// mean is over their length: D = (Phi / length)^(-1/8).
 ///
-/// in   p, position, normal, matte; edges, boxes, listed[0], most: how many edges, room: for boxes; published: 1 or 0;
-///      unit: metres, a power of 2; largest: metres, that is told apart
-/// out  distance: metres, below 0 in shadow, 0 where the matte is unknown
+/// How far away what hides the light is, is known in shadow alone, and changes at once at its edge. Knobs go by the
+/// mean over edges, sum of a len r^-8 over that sum, a being that of an edge. As far from all edges as what is told
+/// apart it goes over into a pixel's own, within as much again.
+///
+/// in   p, position, normal, matte, occluder; edges, boxes, listed[0], most: how many edges, room: for boxes;
+/// published:
+///      1 or 0; unit: metres, a power of 2; largest, farthest: metres, that are told apart of distances and of what
+///      hides the light, above 0
+/// out  distance: metres, below 0 in shadow, 0 where the matte is unknown; away: metres, of what hides the light
 #include "pass/shadowDistance.h"
 #ifdef PASS_shadowDistance
 __kernel void shadowDistance(PARAMETERS)
@@ -23,6 +30,9 @@ __kernel void shadowDistance(PARAMETERS)
     b.known = v >= 0.0f;
     if (!any(b.known)) {
         vstore16((float16)(0.0f), 0, distance + i);
+#if HAS_away
+        vstore16((float16)(0.0f), 0, away + i);
+#endif
         return;
     }
     b.at = loadVecBlock(position, p.planeSize, i);
@@ -32,10 +42,12 @@ __kernel void shadowDistance(PARAMETERS)
     b.count = min(listed[0], most);
     b.room = room;
     boundBlock(&b);
-    float16 d = (float16)(largest);
+    float16 d = (float16)(largest), far = (float16)(0.0f);
+    EdgeSums sums;
+    const float perAway = HAS_away ? 1.0f / farthest : 0.0f;
     if (published != 0u) {
-        const float16 sum = edgeSum(&b, 1.0f / unit, (float16)(3e38f));
-        const float16 mean = sum / max16(edgeLength(&b, 1.0f / unit), (float16)(1e-30f));
+        sums = edgeSums(&b, 1.0f / unit, (float16)(3e38f), perAway);
+        const float16 mean = sums.weights / max16(edgeLength(&b, 1.0f / unit), (float16)(1e-30f));
         d = min16(unit * exp2Block(log2Block(mean) * (-1.0f / 8.0f)), d);
     } else {
         // An edge all around is nearer in the mean than at its nearest, but not by half.
@@ -43,11 +55,21 @@ __kernel void shadowDistance(PARAMETERS)
         const float16 nearest = nearestSquare(&b, beyond);
         const int16 near = b.known & (nearest < beyond);
         const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
-        const float16 sum = edgeSum(&b, 1.0f / unit, near ? reach : (float16)(-1.0f));
-        const float16 power = log2Block(sum * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
+        sums = edgeSums(&b, 1.0f / unit, near ? reach : (float16)(-1.0f), perAway);
+        const float16 power = log2Block(sums.weights * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
         d = near ? min16(unit * exp2Block(power), d) : d;
+        far = sqrt(max16(nearest, (float16)(0.0f))) * (1.0f / largest) - 1.0f;
     }
     vstore16(b.known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);
+#if HAS_away
+    const float16 own = LOAD16_occluder(p.planeSize, i), t = min16(max16(far, (float16)(0.0f)), (float16)(1.0f));
+    const float16 mean = sums.weights > 0.0f ? sums.away / sums.weights * farthest : own;
+    const float16 inside = mean + (own - mean) * (t * t * (3.0f - 2.0f * t));
+    vstore16(b.known ? (v > 0.5f ? mean : inside) : (float16)(0.0f), 0, away + i);
+#else
+    (void)farthest;
+    (void)far;
+#endif
 }
 #endif
 
@@ -61,8 +83,8 @@ typedef struct {
     Vec3x16 at, n;
     uint16 object;
     float16 perSize; ///< 1 over the side of what a pixel sees, metres
-    float perSquare; ///< 1/m^2: weights are 2^(-perSquare r^2)
-    float square; ///< m^2, as far as which neighbours count
+    float16 perSquare; ///< 1/m^2: weights are 2^(-perSquare r^2)
+    float16 square; ///< m^2, as far as which neighbours count
     __global const float *position, *normal, *pixelSize, *distance;
     __global const uint* objectId;
     uint size;
@@ -84,7 +106,7 @@ WEDGE_INLINE void addNeighbours(const SmoothBlock* b, int16 mine, int j, SmoothS
 
 /// Whole pixels that `reach` metres of a surface span along an image step: the shadow of a disk of that normal.
 /// Surfaces bend, so it is a quarter more, up to that of a disk that faces the camera.
-WEDGE_INLINE float16 pixelsAlong(FrameParams frame, Vec3x16 n, Vec3 step, float16 depth, float reach)
+WEDGE_INLINE float16 pixelsAlong(FrameParams frame, Vec3x16 n, Vec3 step, float16 depth, float16 reach)
 {
     const float length = vecLength(step);
     const float16 along = dot16(n, splat3(step)) / length, away = dot16(n, splat3(frame.forward));
@@ -109,7 +131,7 @@ WEDGE_INLINE float16 strideOf(float16 pixels)
 /// axis: each pixel by its own width, so that nobody's depends on who is beside it. The largest distances stay: nothing
 /// that is told apart is near.
 ///
-/// in   frame, surfaces; distance: of shadowDistance(); deviation, largest: metres
+/// in   frame, surfaces; distance, away: of shadowDistance(); deviation: metres, by what is away; largest: metres
 /// out  smoothed: metres, 0 where the distance is
 #include "pass/smoothDistance.h"
 #ifdef PASS_smoothDistance
@@ -127,15 +149,20 @@ __kernel void smoothDistance(PARAMETERS)
     b.n = loadVecBlock(b.normal, b.size, i);
     b.object = loadIdBlock(objectId, i);
     b.perSize = 1.0f / max16(loadBlock(pixelSize, i), (float16)(1e-30f));
-    b.perSquare = 0.72134752f / fmax(deviation * deviation, 1e-30f);
-    const float reach = WEDGE_STYLE_CUT * deviation;
+#if HAS_away
+    const float16 sigma = knobsAt(deviation, LOAD16_away(b.size, i));
+#else
+    const float16 sigma = (float16)(deviation.base);
+#endif
+    b.perSquare = 0.72134752f / max16(sigma * sigma, (float16)(1e-30f));
+    const float16 reach = WEDGE_STYLE_CUT * sigma;
     b.square = reach * reach;
     const float16 depth = max16(dot16(sub16(b.at, splat3(frame.eye)), splat3(frame.forward)), (float16)(1e-20f));
     const float16 across = pixelsAlong(frame, b.n, frame.right, depth, reach);
     const float16 down = pixelsAlong(frame, b.n, frame.down, depth, reach);
     const float16 kind = strideOf(across) + 32.0f * strideOf(down);
     float16 out = loadBlock(distance, i);
-    int16 left = (out != 0.0f) & (fabs(out) < largest);
+    int16 left = (out != 0.0f) & (fabs(out) < largest) & (sigma > 0.0f);
     while (any(left)) {
         const float first = largestOf(left ? kind : (float16)(-1.0f));
         const int16 mine = left & (kind == first);

@@ -6,10 +6,11 @@
 #include "shared/filter_params.h"
 #include "shared/styled_shadows.h"
 
-/// What each pixel sees of a light: one shadow ray each.
+/// What each pixel sees of a light: one shadow ray each. Where styles go by how far away what hides it is, the ray
+/// finds the nearest thing, else any.
 ///
-/// in      frame, BVH, receivers; lights, of which lightIndex is the one
-/// in out  matte: WEDGE_MATTE_*, unknown before; rays
+/// in      frame, BVH, receivers; lights, of which lightIndex is the one; farthest: metres, that things are told apart
+/// in out  matte: WEDGE_MATTE_*, unknown before; occluder: metres along the ray to what hides the light, 0 before; rays
 #include "pass/shadowMatte.h"
 #ifdef PASS_shadowMatte
 __kernel void shadowMatte(PARAMETERS)
@@ -20,14 +21,27 @@ __kernel void shadowMatte(PARAMETERS)
     const DeltaLight light = lights[lightIndex];
     RayPacket packet;
     float cosine[WEDGE_PACKET_SIZE];
-    uint occluded[WEDGE_PACKET_SIZE];
     deltaShadowRays(light, sceneDiameter, &receivers, &packet, cosine);
+#if HAS_occluder
+    PacketHits hits;
+    closestHits(nodes, blocks, &packet, &hits);
+#else
+    uint occluded[WEDGE_PACKET_SIZE];
     anyHits(nodes, blocks, &packet, occluded);
+    (void)farthest;
+#endif
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers.pixel[lane];
         if (i != WEDGE_NO_PIXEL && cosine[lane] > 0.0f) {
             rays[i] += 1u;
-            matte[i] = occluded[lane] != 0u ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;
+#if HAS_occluder
+            const bool hidden = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
+            const float away = hits.t[lane] * vecLength(rayDirection(&packet, lane));
+            occluder[i] = hidden ? fmin(away, farthest) : 0.0f;
+#else
+            const bool hidden = occluded[lane] != 0u;
+#endif
+            matte[i] = hidden ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;
         }
     }
 }
@@ -36,21 +50,24 @@ __kernel void shadowMatte(PARAMETERS)
 /// What is seen, and how it is lit: planes of pixels.
 typedef struct {
     __global const float *position, *normal, *pixelSize, *matte;
+    __global const float* occluder; ///< metres; null: nothing goes by it
     __global const uint* objectId;
     uint size; ///< of a plane
 } SeenShadow;
 
-#define WEDGE_SEEN_SHADOW(p)                                                                                           \
-    seenShadow(position, WEDGE_UNMAPPED((p).planeSize), pixelSize, matte, objectId, (p).planeSize)
+#define WEDGE_SEEN_SHADOW(p, occluder)                                                                                 \
+    seenShadow(position, WEDGE_UNMAPPED((p).planeSize), pixelSize, matte, occluder, objectId, (p).planeSize)
 
 WEDGE_FN SeenShadow seenShadow(__global const float* position, __global const float* normal,
-    __global const float* pixelSize, __global const float* matte, __global const uint* objectId, uint size)
+    __global const float* pixelSize, __global const float* matte, __global const float* occluder,
+    __global const uint* objectId, uint size)
 {
     SeenShadow seen;
     seen.position = position;
     seen.normal = normal;
     seen.pixelSize = pixelSize;
     seen.matte = matte;
+    seen.occluder = occluder;
     seen.objectId = objectId;
     seen.size = size;
     return seen;
@@ -116,6 +133,18 @@ WEDGE_FN Vec3 middleOfSide(SeenShadow seen, const EdgeCell* cell, uint side)
     return vecScale(vecAdd(a, b), 0.5f);
 }
 
+/// How far away what hides the light is, metres: the mean over a cell's corners in shadow, of which there is one.
+WEDGE_FN float occluderOf(SeenShadow seen, const EdgeCell* cell)
+{
+    float sum = 0.0f, corners = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) {
+        const bool hidden = seen.matte[cell->corner[k]] < 0.5f;
+        sum += hidden ? seen.occluder[cell->corner[k]] : 0.0f;
+        corners += hidden ? 1.0f : 0.0f;
+    }
+    return sum / corners;
+}
+
 /// The cells of a tile: their first corners from (x, y) up to and without (endX, endY).
 #define WEDGE_TILE_OF_CELLS(tile)                                                                                      \
     const uint cellsX = p.width - 1u, across = max((cellsX + WEDGE_EDGE_TILE - 1u) / WEDGE_EDGE_TILE, 1u);             \
@@ -139,12 +168,13 @@ WEDGE_FN uint edgesOfTile(SeenShadow seen, AnalysisParams p, uint tile, uint at,
             for (uint k = 0u; k < 4u; ++k) {
                 n = vecAdd(n, loadVec(seen.normal, seen.size, cell.corner[k]));
             }
+            const float away = seen.occluder != 0 ? occluderOf(seen, &cell) : 0.0f;
             for (uint k = 0u; k < cell.pieces; ++k, ++at) {
                 const Vec3 a = middleOfSide(seen, &cell, cell.side[2u * k]);
                 const Vec3 b = middleOfSide(seen, &cell, cell.side[2u * k + 1u]);
                 const Vec3 middle = vecScale(vecAdd(a, b), 0.5f), m = vecNormalize(n);
                 const float8 piece =
-                    (float8)(middle.x, middle.y, middle.z, m.x, m.y, m.z, vecLength(vecSub(b, a)), 0.0f);
+                    (float8)(middle.x, middle.y, middle.z, m.x, m.y, m.z, vecLength(vecSub(b, a)), away);
                 if (at < capacity) {
                     vstore8(piece, at, edges);
                 }
@@ -164,14 +194,14 @@ __kernel void countEdges(PARAMETERS)
 {
     const uint tile = (uint)get_global_id(0);
     if (tile < tiles) {
-        counts[tile] = edgesOfTile(WEDGE_SEEN_SHADOW(p), p, tile, 0u, 0u, (__global float*)0);
+        counts[tile] = edgesOfTile(WEDGE_SEEN_SHADOW(p, 0), p, tile, 0u, 0u, 0);
     }
 }
 #endif
 
 /// The pieces themselves, tile by tile and in each row by row: in one order, and so sums over them have the same bits.
 ///
-/// in   p, surfaces, matte; tiles; first: of each tile's; capacity: of the list
+/// in   p, surfaces, matte, occluder; tiles; first: of each tile's; capacity: of the list
 /// out  edges: WEDGE_EDGE_FLOATS a piece
 #include "pass/listEdges.h"
 #ifdef PASS_listEdges
@@ -179,7 +209,7 @@ __kernel void listEdges(PARAMETERS)
 {
     const uint tile = (uint)get_global_id(0);
     if (tile < tiles) {
-        edgesOfTile(WEDGE_SEEN_SHADOW(p), p, tile, first[tile], capacity, edges);
+        edgesOfTile(WEDGE_SEEN_SHADOW(p, PLANE_occluder), p, tile, first[tile], capacity, edges);
     }
 }
 #endif

@@ -2,6 +2,7 @@
 // what it brings. docs/stylized-shadows.md
 #include "core/formats.h"
 #include "light/delta_light.h"
+#include "light/style_knob.h"
 #include "shared/filter_params.h"
 #include "shared/styled_shadows.h"
 
@@ -73,7 +74,8 @@ __kernel void keepArea(PARAMETERS)
 /// Adds a style's share of light.
 ///
 /// in      p; distance: metres, or the matte; offset: what of it is the edge; zeros: and a number more, where there is
-///         one; inflation, softness: metres; red, green, blue: what is left in shadow; weight
+///         one; away: metres to what hides the light, where knobs go by that; inflation, softness: metres; red, green,
+///         blue: what is left in shadow; weight
 /// in out  share: R G B, of the light
 #include "pass/addStyle.h"
 #ifdef PASS_addStyle
@@ -81,12 +83,13 @@ __kernel void addStyle(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const float d = LOAD_distance(p.planeSize, i) - offset - LOAD_zeros(1u, 0u);
+    const float from = LOAD_away(p.planeSize, i), edge = knobAt(inflation, from), width = knobAt(softness, from);
     // smoothstep() is undefined without a width.
-    const float t = clamp((d - inflation) / fmax(softness, 1e-30f) + 0.5f, 0.0f, 1.0f);
-    const float soft = t * t * (3.0f - 2.0f * t), hard = d > inflation ? 1.0f : 0.0f;
-    const float f = softness > 0.0f ? soft : hard;
-    const Vec3 left = vec3(red, green, blue), rest = vec3(1.0f - red, 1.0f - green, 1.0f - blue);
-    const Vec3 light = vecMad(left, rest, f);
+    const float t = clamp((d - edge) / fmax(width, 1e-30f) + 0.5f, 0.0f, 1.0f);
+    const float soft = t * t * (3.0f - 2.0f * t), hard = d > edge ? 1.0f : 0.0f;
+    const float f = width > 0.0f ? soft : hard;
+    const Vec3 left = vec3(knobAt(red, from), knobAt(green, from), knobAt(blue, from));
+    const Vec3 rest = vec3(1.0f - left.x, 1.0f - left.y, 1.0f - left.z), light = vecMad(left, rest, f);
     STORE_share(p.planeSize, i, vecMad(LOAD_share(p.planeSize, i), light, weight));
 }
 #endif

@@ -2,6 +2,8 @@
 #ifndef WEDGE_SHARED_STYLED_SHADOWS_H
 #define WEDGE_SHARED_STYLED_SHADOWS_H
 
+#include "vec.h"
+
 /// What is known of a light at a pixel's surface.
 #define WEDGE_MATTE_LIT 1.0f
 #define WEDGE_MATTE_SHADOW 0.0f
@@ -9,7 +11,8 @@
 
 /// Cells, squares between the middles of four pixels, along each side of a tile of which one work-item lists the edges.
 #define WEDGE_EDGE_TILE 16u
-/// Numbers of a piece of edge in their list: its middle (metres), its normal, its length (metres), and none.
+/// Numbers of a piece of edge in their list: its middle (metres), its normal, its length (metres), and
+/// where knobs go by it how far what hides the light is from the shadow beside it (metres), else 0.
 #define WEDGE_EDGE_FLOATS 8u
 /// Pieces that a box is around, and numbers of a box: its least and its largest corner.
 #define WEDGE_EDGE_CHUNK 32u
@@ -32,5 +35,16 @@
 #define WEDGE_AREA_BINS 2048u
 #define WEDGE_AREA_NUMBERS 2050u
 #define WEDGE_AREA_STRIPES 64u
+
+WEDGE_SHARED_BEGIN
+
+/// A knob of a style: base + linear d + square d^2, within bounds, d metres from the point in shadow to what hides
+/// the light.
+typedef struct {
+    float base, linear, square;
+    float least, most; ///< both the base where that is all
+} StyleKnob;
+
+WEDGE_SHARED_END
 
 #endif

@@ -12,6 +12,7 @@
 #include "shared/material.h"
 #include "shared/path.h"
 #include "shared/pixel_grid.h"
+#include "shared/styled_shadows.h"
 #include "shared/temporal.h"
 #include "shared/wave.h"
 
