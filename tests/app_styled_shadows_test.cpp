@@ -13,7 +13,8 @@ void writeScene(Workplace& place, const std::string& more)
     place.write("wall.obj", "v 0 0 -1\nv 0 0 1\nv 0 1 1\nv 0 1 -1\nf 1 2 3 4\n");
     place.write("s.toml",
         "[camera]\neye = [0, 2, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 48\nheight = 32\n"
-        "[[mesh]]\nfile = \"floor.obj\"\n[[mesh]]\nfile = \"wall.obj\"\n"
+        "[[mesh]]\nname = \"floor\"\nfile = \"floor.obj\"\n"
+        "[[mesh]]\nname = \"wall\"\nfile = \"wall.obj\"\n"
         "[[light]]\ntype = \"directional\"\nname = \"the sun\"\ndirection = [1, -1.5, 0]\nirradiance = 2\n"
             + more);
 }
@@ -29,6 +30,14 @@ image::LayeredImage rendered(const Workplace& place, const Arguments& more)
     return image::readExr((place.path() / "a.exr").string());
 }
 
+std::vector<float> channelOf(const image::LayeredImage& image, const std::string& name)
+{
+    for (const image::Channel& channel : image.channels)
+        if (channel.name == name)
+            return channel.values;
+    return {};
+}
+
 } // namespace
 
 TEST_CASE("--no-style leaves styles out, layers show what they are made of, and images say so")
@@ -40,16 +49,10 @@ TEST_CASE("--no-style leaves styles out, layers show what they are made of, and 
     const image::LayeredImage styled = rendered(place, { "--layers", "shadowMatte,shadowDistance" });
     const image::LayeredImage without = rendered(place, { "--no-style" });
     CHECK(textOf(without, "method.styles") == "off");
-    const auto valuesOf = [](const image::LayeredImage& image, const std::string& name) {
-        for (const image::Channel& channel : image.channels)
-            if (channel.name == name)
-                return channel.values;
-        return std::vector<float> {};
-    };
-    CHECK(valuesOf(without, "R") == valuesOf(plain, "R"));
-    CHECK(valuesOf(styled, "R") != valuesOf(plain, "R"));
-    const std::vector<float> matte = valuesOf(styled, "shadowMatte.the_sun.Y");
-    const std::vector<float> distance = valuesOf(styled, "shadowDistance.the_sun.Z");
+    CHECK(channelOf(without, "R") == channelOf(plain, "R"));
+    CHECK(channelOf(styled, "R") != channelOf(plain, "R"));
+    const std::vector<float> matte = channelOf(styled, "shadowMatte.the_sun.Y");
+    const std::vector<float> distance = channelOf(styled, "shadowDistance.the_sun.Z");
     REQUIRE(matte.size() == 48 * 32);
     REQUIRE(distance.size() == matte.size());
     std::size_t lit = 0, shadowed = 0;
@@ -82,6 +85,26 @@ TEST_CASE("styles that frames cannot have are refused in a line")
     rendered(place, { "--antialias", "--no-style", "--spp", "8" });
     rendered(place, { "--integrator", "ao", "--antialias", "--spp", "8" });
     refused({ "--no-style", "--layers", "shadowMatte" }, "layer cannot be made, no light's shadows have a style");
+}
+
+TEST_CASE("styles by distance and of some objects are rendered, and unknown objects refused in a line")
+{
+    Workplace place;
+    const auto red = [&](const std::string& style) {
+        writeScene(place, "[[light.style]]\n" + style);
+        return channelOf(rendered(place, {}), "R");
+    };
+    const std::vector<float> plain = red("brightness = 0.3\n");
+    const std::vector<float> away = red("brightness = { at = [0.3, 0.2, 0] }\n");
+    const std::vector<float> some = red("brightness = 0.3\nreceivers = 'wall'\n");
+    CHECK(away != plain);
+    CHECK(some != plain);
+    CHECK(red("brightness = 0.3\nreceivers = ['wall', 'floor']\n") == plain);
+    CHECK(red("brightness = { at = [0.3, 0, 0] }\n") == plain);
+    writeScene(place, "[[light.style]]\nbrightness = 0.3\ncasters = 'wal'\n");
+    const Outcome outcome = place.run({ "render", "s.toml", "-o", "a.exr" });
+    CHECK(outcome.status == failure);
+    CHECK_MESSAGE(contains(outcome.err, "names no object of the scene: 'wal': did you mean 'wall'?"), outcome.err);
 }
 
 } // namespace wedge::app::test

@@ -141,8 +141,13 @@ bool ofFrames(render::Renderer& renderer, const OfFrame& visit)
 bool ofStyles(const device::Device& device, const OfFrame& visit)
 {
     scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/styled.toml");
-    for (const float away : { 0.0f, 0.1f }) { // by how far away what throws the shadow is
-        scene.directionalLights.front().styles.front().abstraction.linear = away;
+    for (const bool lists : { false, true }) {
+        scene::ShadowStyle& style = scene.directionalLights.front().styles.front();
+        if (lists) {
+            style.abstraction.linear = 0.1f; // by how far away what throws the shadow is
+            style.casters = { "fence" };
+            style.receivers = { "floor" };
+        }
         for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
             render::Options options;
             options.traversal = family;

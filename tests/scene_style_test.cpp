@@ -71,6 +71,30 @@ TEST_CASE("knobs that go by how far away what throws the shadow is")
     CHECK(load(sun + "[[light.style]]\ninflation = { at = [0, 0, 1] }\n").directionalLights[0].styles.size() == 1);
 }
 
+TEST_CASE("objects that throw shadows in a style, and that have them, go by their names")
+{
+    const scene_test::TemporaryFolder folder;
+    folder.write("tri.obj", "o tri\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string meshes = "[[mesh]]\nname = 'tree'\nfile = 'tri.obj'\ninstances = [{ name = 'low' }, { name = "
+                               "'high' }]\n[[mesh]]\nname = 'ground'\nfile = 'tri.obj'\n";
+    const auto styled = [&](const std::string& lists) {
+        return folder.write("s.toml", meshes + sun + "[[light.style]]\ninflation = 1\n" + lists);
+    };
+    const Scene scene = wedge::scene::loadScene(styled("casters = ['tree/low', 'ground/tri']\nreceivers = 'tree'\n"));
+    const wedge::scene::ShadowStyle& style = scene.directionalLights[0].styles.at(0);
+    CHECK(style.casters == std::vector<std::string> { "tree/low", "ground/tri" });
+    CHECK(style.receivers == std::vector<std::string> { "tree" });
+    const auto says = [&](const std::string& lists, const std::string& what) {
+        const std::string message = scene_test::errorOf(styled(lists));
+        CHECK_MESSAGE(contains(message, what), message);
+    };
+    says("casters = 'tre'\n", "casters of light.style names no object of the scene: 'tre': did you mean 'tree'?");
+    says("receivers = ['tree', 'tree/lo']\n", "names no object of the scene: 'tree/lo': did you mean 'tree/low'?");
+    says("receivers = 'lighthouse'\n", "names no object of the scene: 'lighthouse': wedge info lists the objects");
+    says("casters = []\n", "casters of light.style is empty");
+    says("casters = 3\n", "casters of light.style must be a name, or a list of names");
+}
+
 TEST_CASE("what is wrong in a style is told with its place")
 {
     const auto says = [](const std::string& style, const std::string& what) {

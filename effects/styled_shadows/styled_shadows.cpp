@@ -3,6 +3,7 @@
 #include "effects/styled_shadows/style_knobs.h"
 #include "effects/styled_shadows/styled_lights.h"
 #include "host/graph/lists.h"
+#include "host/scene/object_names.h"
 #include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace wedge::render {
 
@@ -33,13 +36,16 @@ struct Edges { }; ///< pieces of shadows' edges, and boxes around them
 /// The least power of 2 that is not less, within what single precision takes the eighth power of.
 float unitOf(float metres) { return std::exp2(std::ceil(std::log2(std::max(metres, 1e-9f)))); }
 
-/// The passes of one light.
+/// The passes of those of a light's styles that have the same casters.
 class StyledShadow {
 public:
-    StyledShadow(FrameBuilder& frame, ReceiverSet& at, const StyledLight& light)
+    /// weights: of all styles of the light.
+    StyledShadow(FrameBuilder& frame, ReceiverSet& at, const StyledLight& light, float weights)
         : f_(frame)
         , at_(at)
         , light_(light)
+        , weights_(weights)
+        , casters_(!light.styles.front().casters.empty())
         , varies_(std::ranges::any_of(light.styles, variesByOccluder))
         , farthest_(varies_ ? farthestOccluder(frame.description, light.index) : 0.0f)
         , largest_(mostDistance(light.styles, farthest_))
@@ -91,12 +97,42 @@ private:
             occluder_ = f_.graph.plane<Metres>("what hides a light", graph::floats);
             f_.zero(occluder_);
         }
-        at_.trace("shadows in a style", { edgesProgram, "shadowMatte" },
-            joined({ at_.frame() }, ofLight(), f_.hierarchy(), at_.arguments(),
-                Arguments { updates("matte", matte_),
-                    varies_ ? updates("occluder", occluder_) : graph::absent("occluder"), value("farthest", farthest_),
-                    at_.tallyRays() }),
-            [](const Launch&) { return 1.0; });
+        Arguments passes = joined({ at_.frame() }, ofLight(), f_.hierarchy(), at_.arguments(),
+            Arguments { updates("matte", matte_), varies_ ? updates("occluder", occluder_) : graph::absent("occluder"),
+                value("farthest", farthest_), at_.tallyRays() });
+        if (casters_) {
+            others_ = f_.graph.plane<Matte>("matte of other shadows", graph::floats);
+            f_.fill("unknown", others_, WEDGE_MATTE_UNKNOWN);
+            passes = joined(passes, Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds) },
+                members("casters", light_.styles.front().casters), Arguments { updates("others", others_) });
+        }
+        at_.trace("shadows in a style", { edgesProgram, casters_ ? "shadowOfCasters" : "shadowMatte" },
+            std::move(passes), [](const Launch&) { return 1.0; });
+    }
+
+    /// A list of 1 or 0 for each object's id and for 0: whether it goes by one of these names; and how many they are.
+    Arguments members(const char* name, const std::vector<std::string>& names)
+    {
+        const std::vector<std::string>& objects = f_.description.geometry.objectNames;
+        std::vector<std::uint32_t> flags(objects.size() + 1, 0);
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            const auto calls = [&](const std::string& called) { return scene::isCalled(objects[i], called); };
+            flags[i + 1] = std::ranges::any_of(names, calls) ? 1 : 0;
+        }
+        const auto count = static_cast<std::uint32_t>(flags.size());
+        auto list = f_.graph.list<Count>(name, graph::counts, count);
+        f_.graph.add({ .name = name,
+            .kind = PassKind::Transfer,
+            .arguments = { writes("list", list) },
+            .domain = graph::Domain::Host,
+            .step =
+                [flags = std::move(flags), list](graph::Run& run) {
+                    if (!run.rehearsal()) {
+                        run.buffer<std::uint32_t>(list).upload(run.queue(), flags);
+                    }
+                },
+            .constant = true });
+        return graph::together("members", { reads(name, list), graph::unlessEmpty("objects", count) });
     }
 
     void distances()
@@ -155,12 +191,8 @@ private:
     {
         share_ = f_.graph.plane<Share>("share of a light", graph::vectors);
         f_.zero(share_);
-        float sum = 0.0f;
         for (const scene::ShadowStyle& style : light_.styles) {
-            sum += style.weight;
-        }
-        for (const scene::ShadowStyle& style : light_.styles) {
-            addStyle(style, style.weight / sum);
+            addStyle(style, style.weight / weights_);
         }
     }
 
@@ -210,16 +242,23 @@ private:
         // Without an edge to be moved the matte itself says what is lit.
         const bool asIs = distance_.graph == 0;
         const Smoothed of = asIs ? Smoothed() : smoothed(style);
-        f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" },
-            joined(
-                { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
-                    of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(style) },
-                graph::together("style",
-                    { value("offset", asIs ? 0.5f : 0.0f), value("inflation", inflationOf(style)),
-                        value("softness", softnessOf(style)), value("red", brightnessOf(style, 0)),
-                        value("green", brightnessOf(style, 1)), value("blue", brightnessOf(style, 2)),
-                        value("weight", weight) }),
-                Arguments { updates("share", share_) }));
+        Arguments passes = joined(
+            { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
+                of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(style),
+                casters_ ? reads("others", others_) : graph::absent("others") },
+            graph::together("style",
+                { value("offset", asIs ? 0.5f : 0.0f), value("inflation", inflationOf(style)),
+                    value("softness", softnessOf(style)), value("red", brightnessOf(style, 0)),
+                    value("green", brightnessOf(style, 1)), value("blue", brightnessOf(style, 2)),
+                    value("weight", weight) }),
+            Arguments { updates("share", share_) });
+        if (style.receivers.empty()) {
+            passes.push_back(graph::absent("receivers", graph::counts));
+        } else {
+            passes = joined(passes, members("receivers", style.receivers),
+                Arguments { reads("matte", matte_), reads("objectId", f_.surfaces.objectId) });
+        }
+        f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" }, std::move(passes));
     }
 
     void light(graph::Handle<Radiance>& radiance)
@@ -245,19 +284,45 @@ private:
     FrameBuilder& f_;
     ReceiverSet& at_;
     const StyledLight& light_;
+    const float weights_; ///< of all of the light's styles
+    const bool casters_; ///< some things alone throw such shadows
     const bool varies_; ///< some style goes by how far away what hides the light is
     const float farthest_; ///< metres, that it is
     const float largest_; ///< metres, of distances that are told apart
     graph::Handle<Matte> matte_;
+    graph::Handle<Matte> others_; ///< of what is no caster; of no graph where all things are
     graph::Handle<Metres> occluder_, away_; ///< of no graph where nothing goes by them
     graph::Handle<Metres> distance_; ///< of no graph where no style moves or softens edges
     graph::Handle<Share> share_;
 };
 
+/// Calls visit() for a light with those of its styles that have the same casters, for each such group in the order of
+/// their first; the second and later ones' layers are numbered.
+template <class Visit>
+void eachGroup(const StyledLight& light, const Visit& visit)
+{
+    std::vector<std::vector<scene::ShadowStyle>> groups;
+    for (const scene::ShadowStyle& style : light.styles) {
+        const auto same = [&](const auto& group) { return group.front().casters == style.casters; };
+        const auto known = std::ranges::find_if(groups, same);
+        (known == groups.end() ? groups.emplace_back() : *known).push_back(style);
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        StyledLight part = light;
+        part.styles = groups[i];
+        part.name += i == 0 ? "" : fmt::format(".{}", i + 1);
+        visit(part);
+    }
+}
+
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
     for (const StyledLight& light : styledLights(f.settings, f.description)) {
-        StyledShadow(f, at, light).declare(radiance);
+        float weights = 0.0f;
+        for (const scene::ShadowStyle& style : light.styles) {
+            weights += style.weight;
+        }
+        eachGroup(light, [&](const StyledLight& part) { StyledShadow(f, at, part, weights).declare(radiance); });
     }
 }
 

@@ -3,6 +3,7 @@
 #include "host/scene/camera_section.h"
 #include "host/scene/material_section.h"
 #include "host/scene/scene_sections.h"
+#include "host/scene/style_section.h"
 
 namespace wedge::scene {
 namespace {
@@ -44,6 +45,7 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     root_.finish(); // a wrong key is told before large meshes are read
     meshes_.emplace(root_, scene, textures_, warnings);
     meshes_->place(scene, warnings);
+    checkObjectNames(root_, scene.geometry);
     readCamera(root_, scene, warnings);
     brought_ = lightsOfExtensions(scene);
     scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());

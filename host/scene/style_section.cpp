@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/nearest.h"
+#include "host/scene/object_names.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
@@ -76,8 +78,23 @@ ShadowStyle readStyle(TableReader& table, bool several)
     style.abstraction = readLength(table, "abstraction", 0.0);
     style.brightness = readBrightness(table);
     style.keepArea = table.boolean("keep_area").value_or(style.keepArea);
+    style.casters = table.names("casters");
+    style.receivers = table.names("receivers");
     table.finish();
     return style;
+}
+
+/// Throws where no object goes by one of the names under the key.
+void checkNames(TableReader& style, const std::string& key, const std::vector<std::string>& objects)
+{
+    for (const std::string& name : style.names(key)) {
+        if (std::ranges::any_of(objects, [&](const std::string& object) { return isCalled(object, name); }))
+            continue;
+        const std::vector<std::string> known = allNames(objects);
+        const std::string near = nearest(name, { known.begin(), known.end() });
+        style.fail(key, "names no object of the scene", fmt::format("'{}'", name),
+            near.empty() ? "wedge info lists the objects" : fmt::format("did you mean '{}'?", near));
+    }
 }
 
 bool changesNothing(const ShadowStyle& style)
@@ -105,6 +122,16 @@ std::vector<ShadowStyle> readStyles(TableReader& light)
     if (std::ranges::all_of(styles, changesNothing))
         styles.clear();
     return styles;
+}
+
+void checkObjectNames(TableReader& root, const Geometry& geometry)
+{
+    for (TableReader& light : root.tables("light")) {
+        for (TableReader& style : light.tables("style")) {
+            for (const char* key : { "casters", "receivers" })
+                checkNames(style, key, geometry.objectNames);
+        }
+    }
 }
 
 } // namespace wedge::scene

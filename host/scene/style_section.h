@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "host/scene/shadow_style.h"
+#include "host/scene/scene.h"
 #include "host/scene/toml_reader.h"
 
 namespace wedge::scene {
@@ -10,5 +10,8 @@ namespace wedge::scene {
 /// Reads the styles, [[light.style]], of a light whose shadows are hard; none where they change nothing, whatever their
 /// weights. Throws Error for what is wrong in them.
 std::vector<ShadowStyle> readStyles(TableReader& light);
+
+/// Throws Error for a style of some light in the file that names objects which the scene has not.
+void checkObjectNames(TableReader& root, const Geometry& geometry);
 
 } // namespace wedge::scene

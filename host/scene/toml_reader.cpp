@@ -168,7 +168,7 @@ std::optional<std::string> TableReader::choice(const std::string& key, const std
     return value;
 }
 
-std::vector<std::string> TableReader::choices(const std::string& key, const std::vector<std::string>& known)
+std::vector<std::string> TableReader::names(const std::string& key)
 {
     const toml::node* node = find(key);
     if (node == nullptr)
@@ -178,12 +178,6 @@ std::vector<std::string> TableReader::choices(const std::string& key, const std:
         const auto value = element.value_exact<std::string>();
         if (!value)
             wrongType(key, element, "a name, or a list of names");
-        if (std::find(known.begin(), known.end(), *value) == known.end()) {
-            const std::string near = nearest(*value, { known.begin(), known.end() });
-            fail(key, "is unknown", fmt::format("'{}'", *value),
-                near.empty() ? fmt::format("use some of: {}", fmt::join(known, ", "))
-                             : fmt::format("write '{}'; there are: {}", near, fmt::join(known, ", ")));
-        }
         out.push_back(*value);
     };
     if (const toml::array* list = node->as_array()) {
@@ -193,6 +187,20 @@ std::vector<std::string> TableReader::choices(const std::string& key, const std:
             fail(key, "is empty", "[]", "leave it out, or give a name");
     } else {
         add(*node);
+    }
+    return out;
+}
+
+std::vector<std::string> TableReader::choices(const std::string& key, const std::vector<std::string>& known)
+{
+    std::vector<std::string> out = names(key);
+    for (const std::string& name : out) {
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            const std::string near = nearest(name, { known.begin(), known.end() });
+            fail(key, "is unknown", fmt::format("'{}'", name),
+                near.empty() ? fmt::format("use some of: {}", fmt::join(known, ", "))
+                             : fmt::format("write '{}'; there are: {}", near, fmt::join(known, ", ")));
+        }
     }
     return out;
 }

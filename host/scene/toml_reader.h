@@ -30,7 +30,9 @@ public:
     std::optional<bool> boolean(const std::string& key);
     std::optional<std::string> text(const std::string& key);
     std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices);
-    /// One of these names or a list of some, in the file's order; empty when the key is absent.
+    /// A name or a list of some, in the file's order; empty when the key is absent.
+    std::vector<std::string> names(const std::string& key);
+    /// The same of these.
     std::vector<std::string> choices(const std::string& key, const std::vector<std::string>& known);
     std::optional<glm::dvec3> vector(const std::string& key);
     /// A point in the scene, with coordinates that the renderer can take.

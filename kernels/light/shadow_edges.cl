@@ -47,6 +47,60 @@ __kernel void shadowMatte(PARAMETERS)
 }
 #endif
 
+/// The same of some casters and of all other things, each as if they were alone: a ray goes on until both are known.
+///
+/// in      as of shadowMatte(); objectIds: of triangles; casters: 1 or 0 for each id below `objects`
+/// in out  matte, occluder, rays: as of shadowMatte(), of the casters; others: WEDGE_MATTE_*, unknown before
+#include "pass/shadowOfCasters.h"
+#ifdef PASS_shadowOfCasters
+__kernel void shadowOfCasters(PARAMETERS)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    const DeltaLight light = lights[lightIndex];
+    RayPacket packet;
+    float cosine[WEDGE_PACKET_SIZE], met[WEDGE_PACKET_SIZE];
+    bool byCasters[WEDGE_PACKET_SIZE], byOthers[WEDGE_PACKET_SIZE];
+    deltaShadowRays(light, sceneDiameter, &receivers, &packet, cosine);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        met[lane] = 0.0f;
+        byCasters[lane] = byOthers[lane] = false;
+    }
+    for (bool more = true; more;) {
+        PacketHits hits;
+        closestHits(nodes, blocks, &packet, &hits);
+        more = false;
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const bool hit = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
+            const uint object = hit ? objectIds[hits.triangle[lane]] : 0u;
+            if (hit && object < objects && casters[object] != 0u) {
+                met[lane] = byCasters[lane] ? met[lane] : hits.t[lane];
+                byCasters[lane] = true;
+            } else if (hit) {
+                byOthers[lane] = true;
+            }
+            const bool goesOn = hit && !(byCasters[lane] && byOthers[lane]);
+            packet.tMin[lane] = goesOn ? hits.t[lane] : 0.0f;
+            packet.tMax[lane] = goesOn ? packet.tMax[lane] : 0.0f;
+            more = more || goesOn;
+        }
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL && cosine[lane] > 0.0f) {
+            rays[i] += 1u;
+            matte[i] = byCasters[lane] ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;
+            others[i] = byOthers[lane] ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;
+#if HAS_occluder
+            occluder[i] = byCasters[lane] ? fmin(met[lane] * vecLength(rayDirection(&packet, lane)), farthest) : 0.0f;
+#endif
+        }
+    }
+    (void)farthest;
+}
+#endif
+
 /// What is seen, and how it is lit: planes of pixels.
 typedef struct {
     __global const float *position, *normal, *pixelSize, *matte;

@@ -75,7 +75,9 @@ __kernel void keepArea(PARAMETERS)
 ///
 /// in      p; distance: metres, or the matte; offset: what of it is the edge; zeros: and a number more, where there is
 ///         one; away: metres to what hides the light, where knobs go by that; inflation, softness: metres; red, green,
-///         blue: what is left in shadow; weight
+///         blue: what is left in shadow; weight; others: the matte of what is none of the style's casters;
+///         matte, objectId, receivers: 1 or 0 for each id below `objects`, where there is not the style's but the
+///         plain shadow
 /// in out  share: R G B, of the light
 #include "pass/addStyle.h"
 #ifdef PASS_addStyle
@@ -89,7 +91,18 @@ __kernel void addStyle(PARAMETERS)
     const float soft = t * t * (3.0f - 2.0f * t), hard = d > edge ? 1.0f : 0.0f;
     const float f = width > 0.0f ? soft : hard;
     const Vec3 left = vec3(knobAt(red, from), knobAt(green, from), knobAt(blue, from));
-    const Vec3 rest = vec3(1.0f - left.x, 1.0f - left.y, 1.0f - left.z), light = vecMad(left, rest, f);
+    const Vec3 rest = vec3(1.0f - left.x, 1.0f - left.y, 1.0f - left.z);
+    Vec3 light = vecMad(left, rest, f);
+#if HAS_receivers
+    const uint object = objectId[i];
+    if (object >= objects || receivers[object] == 0u) {
+        const float plain = LOAD_matte(p.planeSize, i) > 0.5f ? 1.0f : 0.0f;
+        light = vec3(plain, plain, plain);
+    }
+#endif
+#if HAS_others
+    light = vecScale(light, LOAD_others(p.planeSize, i) > 0.5f ? 1.0f : 0.0f);
+#endif
     STORE_share(p.planeSize, i, vecMad(LOAD_share(p.planeSize, i), light, weight));
 }
 #endif

@@ -122,10 +122,12 @@ check sky_lights "$scenes/sky.toml" --traversal wide --size 5x4 --method mc --sp
 check sky_lights_prefiltered "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows ratio --shadow-lights 2 --shadow-complete prefiltered
 check sky_lights_scalar "$scenes/sky.toml" --traversal scalar --size 7x5 --method aaf --spp 16 --shadows subtractive --shadow-lights 5
 check styled "$scenes/styled.toml" --traversal wide --size 19x13 --method mc --spp 1
-# By how far away what throws the shadow is.
+# By how far away what throws the shadow is; of some things on some things.
 sed -e "s|meshes/|$scenes/meshes/|" -e "s|^inflation = .*|inflation = { at = [0, 0.05, 0] }|" \
     -e "s|^abstraction = .*|abstraction = { at = [0, 0.1, 0] }|" "$scenes/styled.toml" >"$work/styled_away.toml"
 check styled_away "$work/styled_away.toml" --traversal wide --size 19x13 --method mc --spp 1
+sed "s|^brightness = .*|casters = 'fence'\nreceivers = 'floor'|" "$work/styled_away.toml" >"$work/styled_lists.toml"
+check styled_lists "$work/styled_lists.toml" --traversal wide --size 19x13 --method mc --spp 1
 check styled_scalar "$scenes/styled.toml" --traversal scalar --size 9x7 --method mc --spp 1
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 # Microfacets, normal maps and heights, and cut-outs.
