@@ -1,6 +1,9 @@
 // Frames whose lights' shadows have a style: closed forms, what leaves bits as they are, and what may have no effect.
 #include "host/error.h"
+#include "kernels/shared/styled_shadows.h"
 #include "tests/styled_floor.h"
+
+#include <atomic>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -293,5 +296,30 @@ TEST_CASE("styles of pixels with several receivers are refused in a line")
         s.antialias = false;
         s.integrator = render::Integrator::AmbientOcclusion; // which knows no lights
         CHECK_NOTHROW(renderer.render(s));
+    });
+}
+
+TEST_CASE("a frame is stopped among distances to edges, and is one of numbers")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = disk(0.45f);
+        scene.directionalLights.front().styles = { style(0.3f, 0.3f) };
+        render::Renderer renderer(scene, device, renderOptions());
+        renderer.queue().setTargetMilliseconds(0.05);
+        std::atomic<bool> stop { false };
+        render::Control control;
+        control.cancel = &stop;
+        control.progress = [&](double done) { stop = stop || done > 0.999; }; // all rays are traced
+        CHECK_FALSE(renderer.render(settings(), control, true).complete);
+        CHECK(stop);
+        const Window all { 0, 0, width, height };
+        const std::vector<float> matte = pixels(renderer, "shadowMatte.1", all);
+        const std::vector<float> distance = pixels(renderer, "shadowDistance.1", all);
+        CHECK(std::ranges::count_if(matte, [](float v) { return v == WEDGE_MATTE_SHADOW; }) > 1000);
+        CHECK(std::ranges::count_if(matte, [](float v) { return v == WEDGE_MATTE_UNKNOWN; }) == 0);
+        CHECK(std::ranges::count_if(distance, [](float v) { return v == 0; }) > 1000);
+        CHECK(std::ranges::all_of(pixels(renderer, "beauty", all), [](float v) { return std::isfinite(v); }));
+        CHECK(renderer.render(settings(), {}, true).complete);
+        CHECK(std::ranges::count_if(pixels(renderer, "shadowDistance.1", all), [](float v) { return v == 0; }) == 0);
     });
 }

@@ -36,6 +36,16 @@ struct Edges { }; ///< pieces of shadows' edges, and boxes around them
 /// The least power of 2 that is not less, within what single precision takes the eighth power of.
 float unitOf(float metres) { return std::exp2(std::ceil(std::log2(std::max(metres, 1e-9f)))); }
 
+/// Blocks of 16 pixels that are taken one after the other.
+constexpr std::size_t blocksOfTile = 4;
+
+/// Such blocks in a row of a window, which for that begins and ends at them.
+std::size_t blocksAlong(const Window& window)
+{
+    constexpr int side = WEDGE_BLOCK_PIXELS;
+    return static_cast<std::size_t>((window.x1 - window.x0 / side * side + side - 1) / side);
+}
+
 /// The passes of those of a light's styles that have the same casters.
 class StyledShadow {
 public:
@@ -166,16 +176,30 @@ private:
         const Arguments facing = graph::together(
             "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
+        f_.zero(distance_);
         if (varies_) {
             away_ = f_.graph.plane<Metres>("what hides a light, around shadows", graph::floats);
+            f_.zero(away_);
         }
-        f_.blocks("distances to shadows' edges", PassKind::Analysis, { distanceProgram, "shadowDistance" },
-            joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_), occluder() },
+        // All edges may be near all pixels: it can take seconds, and be stopped.
+        f_.graph.add({ .name = "distances to shadows' edges",
+            .kind = PassKind::Analysis,
+            .kernel = { distanceProgram, "shadowDistance" },
+            .arguments = joined({ f_.rectangle(f_.analysisParams()) }, facing,
+                Arguments { reads("matte", matte_), occluder() },
                 graph::together("edges",
                     joined(listed,
                         Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),
                 Arguments { value("unit", unitOf(largest_)), value("largest", largest_), value("farthest", farthest_),
-                    writes("distance", distance_), varies_ ? writes("away", away_) : graph::absent("away") }));
+                    updates("distance", distance_), varies_ ? updates("away", away_) : graph::absent("away") }),
+            .domain = graph::Domain::Tiles,
+            .count =
+                [](const Launch& launch) {
+                    const Window& w = launch.window;
+                    return blocksAlong(w) * static_cast<std::size_t>(w.height()) / blocksOfTile + 1;
+                },
+            .itemsOfTile = blocksOfTile,
+            .stoppable = true });
     }
 
     graph::Argument occluder() const { return varies_ ? reads("occluder", occluder_) : graph::absent("occluder"); }

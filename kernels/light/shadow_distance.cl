@@ -15,16 +15,23 @@
 /// mean over edges, sum of a len r^-8 over that sum, a being that of an edge. As far from all edges as what is told
 /// apart it goes over into a pixel's own, within as much again.
 ///
-/// in   p, position, normal, matte, occluder; edges, boxes, listed[0], most: how many edges, room: for boxes;
-/// published:
-///      1 or 0; unit: metres, a power of 2; largest, farthest: metres, that are told apart of distances and of what
-///      hides the light, above 0
-/// out  distance: metres, below 0 in shadow, 0 where the matte is unknown; away: metres, of what hides the light
+/// in      p, position, normal, matte, occluder; edges, boxes, listed[0], most: how many edges, room: for boxes;
+///         published: 1 or 0; unit: metres, a power of 2; largest, farthest: metres, that are told apart of distances
+///         and of what hides the light, above 0
+/// in out  distance: metres, below 0 in shadow, 0 where the matte is unknown or nobody came to; away: metres, of what
+///         hides the light
 #include "pass/shadowDistance.h"
 #ifdef PASS_shadowDistance
 __kernel void shadowDistance(PARAMETERS)
 {
-    WEDGE_PIXEL(p, x, y, i);
+    // A frame may be stopped between some blocks and the next, whose order is that of rows.
+    const uint left = p.x0 & ~15u, across = max((p.x1 - left + 15u) / 16u, 1u);
+    const ulong item = (ulong)firstGroup * get_local_size(0) + get_global_id(0);
+    const uint x = left + (uint)(item % across) * 16u, y = p.y0 + (uint)(item / across);
+    if (y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
     EdgeBlock b;
     const float16 v = LOAD16_matte(p.planeSize, i);
     b.known = v >= 0.0f;
