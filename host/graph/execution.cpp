@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <stdexcept>
 
 namespace wedge::graph {
@@ -126,6 +127,41 @@ bool Execution::run(const std::atomic<bool>* stop, bool poison)
     return !run.cut();
 }
 
+ChangingValues Execution::changingValues()
+{
+    const Run run(queue_, false, nullptr);
+    ChangingValues out;
+    for (const PlannedPass& planned : plan_.passes) {
+        for (const Argument& argument : planned.pass->arguments) {
+            if (argument.changing) {
+                out.push_back(argument.value({ run, planned.window }));
+            }
+        }
+    }
+    return out;
+}
+
+bool Execution::runAgain(const ChangingValues& before, const std::atomic<bool>* stop)
+{
+    assert(plan_.runsAgain);
+    const ChangingValues now = changingValues();
+    std::vector<bool> first(plan_.passes.size());
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
+        for (const Argument& argument : plan_.passes[i].pass->arguments) {
+            if (argument.changing) {
+                first[i] = first[i] || now[value] != before.at(value);
+                ++value;
+            }
+        }
+    }
+    left_ = dependents(plan_.graph, plan_.passes, std::move(first));
+    left_.flip();
+    const bool whole = run(stop);
+    left_.clear();
+    return whole;
+}
+
 void Execution::rehearse()
 {
     Run run(queue_, true, nullptr);
@@ -143,12 +179,22 @@ std::vector<Trial> Execution::trials()
     return found;
 }
 
+bool Execution::leavesOut(std::size_t begin, std::size_t end) const
+{
+    return !left_.empty()
+        && std::all_of(left_.begin() + static_cast<std::ptrdiff_t>(begin),
+            left_.begin() + static_cast<std::ptrdiff_t>(end), std::identity());
+}
+
 void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
 {
     for (std::size_t i = begin; i < end;) {
         int inner = plan_.passes[i].pass->loop;
         if (inner == loop) {
-            runPass(run, plan_.passes[i++]);
+            if (!leavesOut(i, i + 1)) {
+                runPass(run, plan_.passes[i]);
+            }
+            ++i;
             continue;
         }
         while (plan_.graph.loops()[static_cast<std::size_t>(inner)].parent != loop) {
@@ -159,7 +205,7 @@ void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
             ++last;
         }
         const Loop& body = plan_.graph.loops()[static_cast<std::size_t>(inner)];
-        const std::size_t count = run.rehearsal() ? 1 : body.count(run);
+        const std::size_t count = leavesOut(i, last) ? 0 : run.rehearsal() ? 1 : body.count(run);
         // Whoever stops ends what is repeated; conditions say themselves what is left out then.
         for (std::size_t k = 0; k < count; ++k) {
             if (body.repeats && run.stopped()) {

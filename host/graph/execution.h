@@ -3,6 +3,7 @@
 #include "host/device/buffer.h"
 #include "host/device/program.h"
 #include "host/graph/plan.h"
+#include "host/graph/rerun.h"
 #include "host/graph/trial.h"
 
 #include <atomic>
@@ -104,6 +105,11 @@ public:
     /// Runs all passes; returns false if some were cut, which *stop asks for, null for never. poison: what has no
     /// contents yet is filled with not-a-numbers, for tests: nobody may see them.
     bool run(const std::atomic<bool>* stop = nullptr, bool poison = false);
+    /// The values that are changing(), as a run would have them now.
+    ChangingValues changingValues();
+    /// After a run() of the same plan that was whole, in the same memory: runs the passes whose values are others than
+    /// `before`, and all that go by what these make. Of plans that can (Plan::runsAgain). Returns as run().
+    bool runAgain(const ChangingValues& before, const std::atomic<bool>* stop = nullptr);
     /// Launches every kernel at its full size over nothing; bodies of loops once.
     void rehearse();
     /// What rehearse() launches, which launches nothing this once: for other processes to compile.
@@ -121,6 +127,8 @@ public:
 private:
     friend class Run;
 
+    /// Whether all passes from begin up to and without end are left out.
+    bool leavesOut(std::size_t begin, std::size_t end) const;
     void runRange(Run& run, std::size_t begin, std::size_t end, int loop);
     void runPass(Run& run, const PlannedPass& planned);
     void launch(Run& run, const PlannedPass& planned);
@@ -144,6 +152,7 @@ private:
     std::vector<cl::Buffer> memory_; ///< of each resource that is used
     bool poison_ = false;
     std::vector<Trial>* trials_ = nullptr; ///< while they are asked for
+    std::vector<bool> left_; ///< of each pass: it is left out, since what it made is there; empty: none is
 };
 
 } // namespace wedge::graph

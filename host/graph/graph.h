@@ -88,6 +88,7 @@ struct Argument {
     std::string group = {}; ///< which it is of, if any
     bool member = false; ///< of the structure that the group is to kernels
     std::size_t mostItems = 0; ///< of a list's length: the most that it can be (lists.h); 0: no length
+    bool changing = false; ///< of values: another one in a later run makes only what goes by it anew
 
     bool isUse() const { return !value && absent == nullptr; }
 };
@@ -110,6 +111,16 @@ template <device::KernelValue T>
 Argument value(std::string name, const T& constant)
 {
     return made(std::move(name), [constant](const Launch&) { return constant; });
+}
+
+/// The same of a value that may be another one when the graph is run again, for the sake of which its plan keeps what
+/// the passes after it need (rerun.h). Is made before a run begins, and so knows nothing of it.
+template <class Make>
+Argument changing(std::string name, const Make& make)
+{
+    Argument out = made(std::move(name), [make](const Launch&) { return make(); });
+    out.changing = true;
+    return out;
 }
 
 /// Memory that no pass of any graph changes. type: what its pointer points to, OpenCL's.

@@ -1,10 +1,12 @@
 #include "host/graph/plan.h"
 
 #include "host/graph/interface.h"
+#include "host/graph/rerun.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 namespace wedge::graph {
@@ -252,6 +254,7 @@ Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, const SlabRules& slabR
             live(use.version.resource, first, last);
         }
     }
+    keepForLater();
     std::vector<Tenant> tenants;
     std::vector<std::size_t> resources;
     for (std::size_t i = 0; i < lifetimes.size(); ++i) {
@@ -268,6 +271,25 @@ Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, const SlabRules& slabR
         places[resources[i]] = placement.places[i];
     }
     slabs = std::move(placement.slabs);
+}
+
+void Plan::keepForLater()
+{
+    const std::vector<bool> changing = changingPasses(passes);
+    if (std::ranges::none_of(changing, std::identity())) {
+        return;
+    }
+    const std::vector<bool> again = dependents(graph, passes, changing);
+    runsAgain = !again.empty();
+    for (std::size_t i = 0; i < again.size(); ++i) {
+        for (const Argument& use : passes[i].pass->arguments) {
+            if (again[i] && use.isUse()) {
+                Tenant& tenant = *lifetimes[use.version.resource];
+                tenant.first = 0;
+                tenant.last = static_cast<std::uint32_t>(passes.size());
+            }
+        }
+    }
 }
 
 SlabRules slabRulesOf(const device::DeviceInfo& info)

@@ -38,6 +38,13 @@ struct Plan {
     std::vector<std::optional<Tenant>> lifetimes;
     std::vector<Place> places; ///< of each resource that has a lifetime and is not imported
     std::vector<std::uint64_t> slabs; ///< bytes of each piece of memory to allocate
+    /// Some values are changing(), and where they alone change, part of the passes can run again: what these use lives
+    /// from the first pass to the end.
+    bool runsAgain = false;
+
+private:
+    /// Lets what changing() passes and those after them use live for later runs.
+    void keepForLater();
 };
 
 /// How planes may lie in a device's memory.

@@ -67,3 +67,14 @@ __kernel void visited(PARAMETERS)
     }
 }
 #endif
+
+#include "pass/weighted.h"
+#ifdef PASS_weighted
+__kernel void weighted(PARAMETERS)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i < count) {
+        STORE_sum(size, i, LOAD_sum(size, i) + weight * LOAD_in(size, i).z);
+    }
+}
+#endif
