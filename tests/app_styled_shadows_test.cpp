@@ -2,6 +2,10 @@
 #include "tests/app_testing.h"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace wedge::app::test {
 namespace {
@@ -105,6 +109,62 @@ TEST_CASE("styles by distance and of some objects are rendered, and unknown obje
     const Outcome outcome = place.run({ "render", "s.toml", "-o", "a.exr" });
     CHECK(outcome.status == failure);
     CHECK_MESSAGE(contains(outcome.err, "names no object of the scene: 'wal': did you mean 'wall'?"), outcome.err);
+}
+
+TEST_CASE("keys of a style: frames of a sequence are those of themselves, and what stays is not made again")
+{
+    Workplace place;
+    const std::string keys =
+        "[[light.style]]\nsoftness = 0.1\n"
+        "key = [{ time = 0 }, { time = 2, inflation = 0.3 }, { time = 4, inflation = 0.3, brightness = 0.5 }]\n";
+    writeScene(place,
+        keys
+            + "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\n"
+              "radiance = 1\n");
+    const auto frames = [&](const std::string& range, const Arguments& more) {
+        Arguments all { "render", "s.toml", "--frames", range, "--fps", "1" };
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(all);
+        REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+        return outcome;
+    };
+    frames("0:4", { "-o", "s%d.exr", "--report", "s.json" });
+    const nlohmann::json report = nlohmann::json::parse(place.text("s.json"));
+    REQUIRE(report["frames"].size() == 5);
+    for (std::size_t i = 0; i < 5; ++i) {
+        CAPTURE(i);
+        const auto has = [&](const char* name) {
+            return std::ranges::any_of(
+                report["frames"][i]["passes"], [&](const auto& pass) { return pass["name"] == name; });
+        };
+        CHECK(has("styles of shadows"));
+        for (const char* name : { "primary rays", "shadows in a style", "distances to shadows' edges" }) {
+            CHECK(has(name) == (i == 0));
+        }
+    }
+    const auto red = [&](const std::string& name) { return values(place.exr(name), "R"); };
+    for (const std::string number : { "0", "1", "3", "4" }) {
+        CAPTURE(number);
+        frames(number, { "-o", "t%d.exr" });
+        CHECK(red("s" + number + ".exr") == red("t" + number + ".exr"));
+    }
+    CHECK(red("s0.exr") != red("s1.exr"));
+    CHECK(red("s3.exr") != red("s4.exr"));
+    // The noise stays, too: a picture of the same knobs, which has frame 0's.
+    CHECK(textOf(place.exr("s3.exr"), "method.sequence") == "same random numbers");
+    const Outcome first = place.run({ "render", "s.toml", "-o", "p.exr", "--quiet" });
+    REQUIRE(first.status == 0);
+    CHECK(red("p.exr") == red("s0.exr"));
+    writeScene(place,
+        "[[light.style]]\nsoftness = 0.1\ninflation = 0.15\n"
+        "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 1\n");
+    REQUIRE(place.run({ "render", "s.toml", "-o", "q.exr", "--quiet" }).status == 0);
+    // D is told apart farther where keys go farther, and so is rounded otherwise.
+    const std::vector<float> numbers = red("q.exr"), keyed = red("s1.exr");
+    REQUIRE(numbers.size() == keyed.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        REQUIRE(std::abs(numbers[i] - keyed[i]) < 1e-5f);
+    }
 }
 
 } // namespace wedge::app::test

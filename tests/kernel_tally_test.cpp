@@ -200,6 +200,38 @@ TEST_CASE("meanOfMirrored: means of sums, which stay where there are no samples 
     });
 }
 
+TEST_CASE("addChanging: the same sums in planes of their own, nothing beside the window")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene::ShadowStyle style;
+        style.softness = 0.1f;
+        style.keys = { style };
+        scene.directionalLights.push_back({ { 0.36f, -0.8f, 0.48f }, { 2, 1, 3 }, "sun", { style } });
+        DeclaredFrame frame(device, scene, sized(render::monteCarlo(1), width, height));
+        PassBench bench(frame, "addChanging");
+        std::mt19937 random(4);
+        for (const char* name : { "radiance", "direct", "directNoisy", "sum", "sumNoisy" })
+            bench.plane(name, someNumbers(random, 3 * frame.layout.size));
+        const Window window { 8, 3, 45, 29 };
+        bench.window(window);
+        const auto radiance = bench.pixels<float>("radiance");
+        for (const auto& [from, to] : { std::pair("direct", "sum"), std::pair("directNoisy", "sumNoisy") }) {
+            CAPTURE(from);
+            const auto light = bench.pixels<float>(from), before = bench.pixels<float>(to);
+            PassBench once = bench;
+            once.run();
+            const auto after = once.pixels<float>(to);
+            everyPixel(frame.layout, [&](int x, int y) {
+                const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
+                const glm::dvec3 expected = inside ? light.vector(x, y) + radiance.vector(x, y) : before.vector(x, y);
+                REQUIRE(glm::length(after.vector(x, y) - expected) < (inside ? 1e-6 : 1e-30));
+            });
+            CHECK(sameBits(once.read<float>(from), bench.read<float>(from)));
+        }
+    });
+}
+
 TEST_CASE("addUnfiltered: light to both images of direct light, nothing beside the window")
 {
     onEveryDevice([](const device::Device& device) {

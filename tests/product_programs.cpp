@@ -152,6 +152,9 @@ bool ofStyles(const device::Device& device, const OfFrame& visit)
             render::Options options;
             options.traversal = family;
             render::Renderer renderer(scene, device, options);
+            // The other times with keys.
+            std::vector<scene::ShadowStyle>& styles = scene.directionalLights.front().styles;
+            styles.front().keys = { styles.front() };
             Settings settings = render::monteCarlo(1);
             settings.width = settings.height = 16;
             if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {

@@ -1,4 +1,5 @@
 // [[light.style]]: how hard shadows are drawn, and what is wrong in it.
+#include "host/scene/sequence.h"
 #include "tests/scene_support.h"
 
 #include <doctest/doctest.h>
@@ -42,7 +43,7 @@ TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a l
     REQUIRE(two.pointLights.size() == 1);
     REQUIRE(two.pointLights[0].styles.size() == 2);
     CHECK(two.pointLights[0].styles[0]
-        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, glm::vec3(0, 0.5f, 1), false, {}, {} });
+        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, glm::vec3(0, 0.5f, 1), false, {}, {}, {} });
     CHECK(two.pointLights[0].styles[1].brightness == wedge::scene::Knob<glm::vec3>(glm::vec3(0.5f)));
     // What changes nothing is none.
     CHECK(load(sun).directionalLights[0].styles.empty());
@@ -95,6 +96,79 @@ TEST_CASE("objects that throw shadows in a style, and that have them, go by thei
     says("casters = 3\n", "casters of light.style must be a name, or a list of names");
 }
 
+TEST_CASE("keys change a style over time: in between linearly, before and after them not")
+{
+    const scene_test::TemporaryFolder folder;
+    const std::string text = sun
+        + "[[light.style]]\nsoftness = 0.25\nkey = [{ time = 1, inflation = 1, brightness = [0, 0.5, 1] }, "
+          "{ time = 3, inflation = -1, softness = 0.75, abstraction = 2 }]\n";
+    wedge::scene::Sequence sequence(folder.write("s.toml", text));
+    const Scene scene = sequence.takeScene();
+    const auto styleAt = [&](double time) {
+        const auto styles = sequence.at(time).directionalLights.at(0).styles;
+        REQUIRE(styles.size() == 1);
+        return styles[0];
+    };
+    using wedge::scene::Knob;
+    CHECK(scene.directionalLights.at(0).styles.at(0) == styleAt(0));
+    for (const double before : { 0.0, 1.0 }) {
+        CHECK(styleAt(before).inflation == Knob(1.0f));
+        CHECK(styleAt(before).softness == Knob(0.25f)); // the style's own
+        CHECK(styleAt(before).abstraction == Knob(0.0f));
+        CHECK(styleAt(before).brightness == Knob(glm::vec3(0, 0.5f, 1)));
+    }
+    CHECK(styleAt(1.5).inflation == Knob(0.5f));
+    CHECK(styleAt(1.5).softness == Knob(0.375f));
+    CHECK(styleAt(1.5).abstraction == Knob(0.5f));
+    CHECK(styleAt(1.5).brightness == Knob(glm::vec3(0, 0.375f, 0.75f)));
+    for (const double after : { 3.0, 4.0 }) {
+        CHECK(styleAt(after).inflation == Knob(-1.0f));
+        CHECK(styleAt(after).brightness == Knob(glm::vec3(0.0f)));
+    }
+    // All moments know all keys.
+    REQUIRE(styleAt(0).keys.size() == 2);
+    CHECK(styleAt(0).keys[1] == styleAt(7).keys[1]);
+    CHECK(styleAt(0).keys[1].abstraction == Knob(2.0f));
+    // One that is as none at a time is still there.
+    const Scene none = load(sun + "[[light.style]]\nkey = [{ time = 0 }, { time = 1, softness = 1 }]\n");
+    CHECK(none.directionalLights[0].styles.size() == 1);
+}
+
+TEST_CASE("a scene knows whether styles alone have keys, and moments whether knobs alone differ")
+{
+    const std::string keys = "[[light.style]]\nsoftness = 1\nkey = [{ time = 0 }, { time = 1, softness = 2 }]\n";
+    const std::string camera = "[camera]\neye = [0, 1, 4]\nlook_at = [0, 0, 0]\n";
+    const std::string moves = "key = [{ time = 0 }, { time = 1, eye = [0, 1, 5] }]\n";
+    CHECK(load(camera + sun + keys).onlyStylesChange);
+    CHECK_FALSE(load(camera + sun + "[[light.style]]\nsoftness = 1\n").onlyStylesChange);
+    CHECK_FALSE(load(camera + moves + sun + keys).onlyStylesChange);
+    CHECK_FALSE(
+        load(camera + sun + "key = [{ time = 0 }, { time = 1, rotate = [0, 0, 1, 9] }]\n" + keys).onlyStylesChange);
+    const auto changeOf = [](const std::string& text, double from, double to) {
+        const scene_test::TemporaryFolder folder;
+        wedge::scene::Sequence sequence(folder.write("s.toml", text));
+        Scene scene = sequence.takeScene();
+        wedge::scene::Moment first = sequence.at(from), second = sequence.at(to);
+        const wedge::scene::Change toFirst = wedge::scene::changeTo(first, scene);
+        wedge::scene::apply(std::move(first), toFirst, scene);
+        const wedge::scene::Change change = wedge::scene::changeTo(second, scene);
+        const auto styles = second.directionalLights.at(0).styles;
+        wedge::scene::apply(std::move(second), change, scene);
+        CHECK(scene.directionalLights.at(0).styles == styles);
+        return change;
+    };
+    CHECK(changeOf(camera + sun + keys, 0, 0.5).onlyKnobs);
+    CHECK_FALSE(changeOf(camera + sun + keys, 0, 0.5).lights);
+    CHECK_FALSE(changeOf(camera + moves + sun + keys, 0, 0.5).onlyKnobs);
+    const std::string turns = "key = [{ time = 0 }, { time = 1, rotate = [0, 0, 1, 9] }]\n";
+    CHECK_FALSE(changeOf(camera + sun + turns + keys, 0, 0.5).onlyKnobs);
+    CHECK(changeOf(camera + sun + turns + keys, 0, 0.5).lights);
+    // A blur comes or goes: other passes.
+    const std::string blurs = "[[light.style]]\nkey = [{ time = 0 }, { time = 1 , abstraction = 1 }]\n";
+    CHECK_FALSE(changeOf(camera + sun + blurs, 0, 0.5).onlyKnobs);
+    CHECK(changeOf(camera + sun + blurs, 0.5, 0.75).onlyKnobs);
+}
+
 TEST_CASE("what is wrong in a style is told with its place")
 {
     const auto says = [](const std::string& style, const std::string& what) {
@@ -114,6 +188,15 @@ TEST_CASE("what is wrong in a style is told with its place")
     says(
         style + "weight = 0.5\n" + style + "weight = 0.4\n", "style of light has weights that do not add up to 1: 0.9");
     says(style + "weight = 0.5\n" + style + "inflation = 1\n", "light.style lacks a key: weight");
+    says(style + "key = [{ inflation = 1 }]\n", "light.style.key lacks a key: time");
+    says(style + "key = [{ time = 1 }, { time = 0 }]\n",
+        "time of light.style.key is not after that of the key before: 1 and 0");
+    says(style + "key = [{ time = 1 }, { time = 1 }]\n", "is not after that of the key before: 1 and 1");
+    says(style + "key = [{ time = nan }]\n", "time of light.style.key is not finite");
+    says(style + "key = [{ time = 0, inflation = nan }]\n", "inflation of light.style.key is not finite");
+    says(style + "key = [{ time = 0, softness = -1 }]\n", "softness of light.style.key is out of range: -1");
+    says(style + "key = [{ time = 0, brightness = 2 }]\n", "brightness of light.style.key is out of range: 2");
+    says(style + "key = [{ time = 0, weight = 1 }]\n", "unknown key in light.style.key: 'weight'");
     says("style = 1\n", "style of light must be a table");
     says(style + "inflation = { at = [1, 2] }\n", "s.toml:7:20: at of light.style.inflation must have 3 numbers");
     says(style + "softness = { at = [1, 2, 3, 4] }\n", "at of light.style.softness must have 3 numbers");

@@ -16,7 +16,8 @@ constexpr auto longest = static_cast<float>(scene::maxCoordinate);
 shared::StyleKnob knobOf(float constant, float linear, float square, float least, float most)
 {
     if (linear == 0.0f && square == 0.0f) {
-        return { constant, 0.0f, 0.0f, constant, constant };
+        const float only = std::clamp(constant, least, most); // between keys of some that vary it may be beyond
+        return { only, 0.0f, 0.0f, only, only };
     }
     return { constant, linear, square, least, most };
 }
@@ -75,13 +76,28 @@ float farthestOccluder(const scene::Scene& scene, std::uint32_t index)
     return std::max(static_cast<float>(most), std::numeric_limits<float>::min());
 }
 
+namespace {
+
+/// Metres from a shadow's edge beyond which a style's transfer function is saturated, and that its blur reaches.
+float saturatedFrom(const scene::ShadowStyle& style, float farthest)
+{
+    return mostOf(inflationOf(style), farthest) + 0.5f * mostOf(softnessOf(style), farthest)
+        + WEDGE_STYLE_CUT * mostOf(abstractionOf(style), farthest);
+}
+
+} // namespace
+
 float mostDistance(std::span<const scene::ShadowStyle> styles, float farthest)
 {
     float most = 0.0f;
     for (const scene::ShadowStyle& style : styles) {
-        most = std::max(most,
-            mostOf(inflationOf(style), farthest) + 0.5f * mostOf(softnessOf(style), farthest)
-                + WEDGE_STYLE_CUT * mostOf(abstractionOf(style), farthest));
+        // What lies between two keys is no more than at one of them.
+        if (style.keys.empty()) {
+            most = std::max(most, saturatedFrom(style, farthest));
+        }
+        for (const scene::ShadowStyle& key : style.keys) {
+            most = std::max(most, saturatedFrom(key, farthest));
+        }
     }
     return headroom * most;
 }

@@ -34,7 +34,8 @@ bool variesByOccluder(const scene::ShadowStyle& style);
 float farthestOccluder(const scene::Scene& scene, std::uint32_t index);
 
 /// Metres from a shadow's edge beyond which no style tells distances apart, at least 0: twice |inflation| +
-/// softness / 2 + 3 abstraction, of the style that has most, of what is up to `farthest` metres away.
+/// softness / 2 + 3 abstraction, of the style that has most, of what is up to `farthest` metres away; of one with keys,
+/// at the key that has most.
 float mostDistance(std::span<const scene::ShadowStyle> styles, float farthest);
 
 } // namespace wedge::render

@@ -41,6 +41,13 @@ void number(std::vector<StyledLight>& lights)
 
 } // namespace
 
+const scene::ShadowStyle& styleOf(const scene::Scene& scene, std::uint32_t light, std::size_t style)
+{
+    const std::size_t points = scene.pointLights.size();
+    return light < points ? scene.pointLights[light].styles.at(style)
+                          : scene.directionalLights.at(light - points).styles.at(style);
+}
+
 std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene)
 {
     std::vector<StyledLight> out;

@@ -19,6 +19,9 @@ struct StyledLight {
     std::span<const scene::ShadowStyle> styles; ///< the scene's, at least one
 };
 
+/// The style of one of them as it is now; changes in the scene show.
+const scene::ShadowStyle& styleOf(const scene::Scene& scene, std::uint32_t light, std::size_t style);
+
 /// Lights whose shadows frames of these settings draw in a style; refers to the scene.
 std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene);
 

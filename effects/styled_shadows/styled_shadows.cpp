@@ -49,11 +49,13 @@ std::size_t blocksAlong(const Window& window)
 /// The passes of those of a light's styles that have the same casters.
 class StyledShadow {
 public:
-    /// weights: of all styles of the light.
-    StyledShadow(FrameBuilder& frame, ReceiverSet& at, const StyledLight& light, float weights)
+    /// places: of the styles, among all of the light; weights: of all of these.
+    StyledShadow(
+        FrameBuilder& frame, ReceiverSet& at, const StyledLight& light, std::vector<std::size_t> places, float weights)
         : f_(frame)
         , at_(at)
         , light_(light)
+        , places_(std::move(places))
         , weights_(weights)
         , casters_(!light.styles.front().casters.empty())
         , varies_(std::ranges::any_of(light.styles, variesByOccluder))
@@ -210,13 +212,24 @@ private:
                                        : graph::absent("away");
     }
 
+    /// A number of one of the light's styles: of one with keys the same pass finds another one later.
+    template <class Number>
+    graph::Argument knob(std::string name, std::size_t style, const Number& number) const
+    {
+        const auto now = [&scene = f_.description, light = light_.index, place = places_[style], number] {
+            return number(styleOf(scene, light, place));
+        };
+        return light_.styles[style].keys.empty() ? value(std::move(name), now())
+                                                 : graph::changing(std::move(name), now);
+    }
+
     /// What all styles leave of the light.
     void shares()
     {
         share_ = f_.graph.plane<Share>("share of a light", graph::vectors);
         f_.zero(share_);
-        for (const scene::ShadowStyle& style : light_.styles) {
-            addStyle(style, style.weight / weights_);
+        for (std::size_t i = 0; i < light_.styles.size(); ++i) {
+            addStyle(i, light_.styles[i].weight / weights_);
         }
     }
 
@@ -226,60 +239,66 @@ private:
         graph::Handle<Metres> zeros; ///< one number; of no graph: none but 0
     };
 
-    Smoothed smoothed(const scene::ShadowStyle& style)
+    Smoothed smoothed(std::size_t of)
     {
+        const scene::ShadowStyle& style = light_.styles[of];
         Smoothed out { distance_, {} };
-        const shared::StyleKnob deviation = abstractionOf(style);
-        const float most = mostOf(deviation, farthest_);
-        if (!(most > 0.0f)) {
+        if (!(mostOf(abstractionOf(style), farthest_) > 0.0f)) {
             return out;
         }
         out.distance = f_.graph.plane<Metres>("smoothed distances", graph::floats);
         f_.blocks("blur of shadows' edges", PassKind::Filter, { distanceProgram, "smoothDistance" },
             joined({ f_.frame() }, surfaces(graph::wholeImage),
-                Arguments { reads("distance", distance_, graph::wholeImage), away(style), value("deviation", deviation),
-                    value("largest", largest_), writes("smoothed", out.distance) }));
+                Arguments { reads("distance", distance_, graph::wholeImage), away(style),
+                    knob("deviation", of, abstractionOf), value("largest", largest_),
+                    writes("smoothed", out.distance) }));
         if (style.keepArea) {
-            out.zeros = zerosOf(out.distance, WEDGE_STYLE_CUT * most);
+            out.zeros = zerosOf(out.distance, of);
         }
         return out;
     }
 
-    /// The distance at which as much is in shadow as was; range: metres to either side of 0.
-    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance, float range)
+    /// The distance at which as much is in shadow as was.
+    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance, std::size_t style)
     {
+        // Metres to either side of 0.
+        const graph::Argument range = knob("range", style, [farthest = farthest_](const scene::ShadowStyle& s) {
+            return WEDGE_STYLE_CUT * mostOf(abstractionOf(s), farthest);
+        });
         auto areas = f_.graph.list<Edges>(
             "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
         f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "countAreas" }, WEDGE_AREA_STRIPES,
-            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), value("range", range),
+            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), range,
                 reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
                 writes("areas", areas) });
         auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
         f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "keepArea" }, 1,
-            { graph::unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), value("range", range),
-                reads("areas", areas), writes("zeros", zeros) });
+            { graph::unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), range, reads("areas", areas),
+                writes("zeros", zeros) });
         return zeros;
     }
 
-    void addStyle(const scene::ShadowStyle& style, float weight)
+    void addStyle(std::size_t style, float weight)
     {
         // Without an edge to be moved the matte itself says what is lit.
         const bool asIs = distance_.graph == 0;
+        const auto left = [](int channel) {
+            return [channel](const scene::ShadowStyle& s) { return brightnessOf(s, channel); };
+        };
         const Smoothed of = asIs ? Smoothed() : smoothed(style);
         Arguments passes = joined(
             { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
-                of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(style),
+                of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(light_.styles[style]),
                 casters_ ? reads("others", others_) : graph::absent("others") },
             graph::together("style",
-                { value("offset", asIs ? 0.5f : 0.0f), value("inflation", inflationOf(style)),
-                    value("softness", softnessOf(style)), value("red", brightnessOf(style, 0)),
-                    value("green", brightnessOf(style, 1)), value("blue", brightnessOf(style, 2)),
-                    value("weight", weight) }),
+                { value("offset", asIs ? 0.5f : 0.0f), knob("inflation", style, inflationOf),
+                    knob("softness", style, softnessOf), knob("red", style, left(0)), knob("green", style, left(1)),
+                    knob("blue", style, left(2)), value("weight", weight) }),
             Arguments { updates("share", share_) });
-        if (style.receivers.empty()) {
+        if (light_.styles[style].receivers.empty()) {
             passes.push_back(graph::absent("receivers", graph::counts));
         } else {
-            passes = joined(passes, members("receivers", style.receivers),
+            passes = joined(passes, members("receivers", light_.styles[style].receivers),
                 Arguments { reads("matte", matte_), reads("objectId", f_.surfaces.objectId) });
         }
         f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" }, std::move(passes));
@@ -308,7 +327,8 @@ private:
     FrameBuilder& f_;
     ReceiverSet& at_;
     const StyledLight& light_;
-    const float weights_; ///< of all of the light's styles
+    const std::vector<std::size_t> places_; ///< of the styles, among all of the light
+    const float weights_; ///< of all of those
     const bool casters_; ///< some things alone throw such shadows
     const bool varies_; ///< some style goes by how far away what hides the light is
     const float farthest_; ///< metres, that it is
@@ -320,22 +340,28 @@ private:
     graph::Handle<Share> share_;
 };
 
-/// Calls visit() for a light with those of its styles that have the same casters, for each such group in the order of
-/// their first; the second and later ones' layers are numbered.
+/// Calls visit(light, places) for a light with those of its styles that have the same casters, and where they are among
+/// all of its styles, for each such group in the order of their first; the second and later ones' layers are numbered.
 template <class Visit>
 void eachGroup(const StyledLight& light, const Visit& visit)
 {
-    std::vector<std::vector<scene::ShadowStyle>> groups;
-    for (const scene::ShadowStyle& style : light.styles) {
-        const auto same = [&](const auto& group) { return group.front().casters == style.casters; };
+    struct Group {
+        std::vector<scene::ShadowStyle> styles;
+        std::vector<std::size_t> places;
+    };
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < light.styles.size(); ++i) {
+        const auto same = [&](const Group& group) { return group.styles.front().casters == light.styles[i].casters; };
         const auto known = std::ranges::find_if(groups, same);
-        (known == groups.end() ? groups.emplace_back() : *known).push_back(style);
+        Group& group = known == groups.end() ? groups.emplace_back() : *known;
+        group.styles.push_back(light.styles[i]);
+        group.places.push_back(i);
     }
     for (std::size_t i = 0; i < groups.size(); ++i) {
         StyledLight part = light;
-        part.styles = groups[i];
+        part.styles = groups[i].styles;
         part.name += i == 0 ? "" : fmt::format(".{}", i + 1);
-        visit(part);
+        visit(part, groups[i].places);
     }
 }
 
@@ -346,7 +372,9 @@ void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
         for (const scene::ShadowStyle& style : light.styles) {
             weights += style.weight;
         }
-        eachGroup(light, [&](const StyledLight& part) { StyledShadow(f, at, part, weights).declare(radiance); });
+        eachGroup(light, [&](const StyledLight& part, const std::vector<std::size_t>& places) {
+            StyledShadow(f, at, part, places, weights).declare(radiance);
+        });
     }
 }
 
@@ -356,12 +384,18 @@ public:
 
     std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
     {
-        const std::size_t lights = styledLights(settings, scene).size();
-        if (settings.integrator != Integrator::Path || lights == 0) {
+        const std::vector<StyledLight> lights = styledLights(settings, scene);
+        if (settings.integrator != Integrator::Path || lights.empty()) {
             return std::nullopt;
         }
         requireStylable(settings, scene);
-        return Unfiltered { .name = "styled shadows", .workUnits = static_cast<double>(lights), .sample = sample };
+        const bool changes = std::ranges::any_of(lights, [](const StyledLight& light) {
+            return std::ranges::any_of(light.styles, [](const auto& style) { return !style.keys.empty(); });
+        });
+        return Unfiltered { .name = "styled shadows",
+            .workUnits = static_cast<double>(lights.size()),
+            .changes = changes,
+            .sample = sample };
     }
 
     std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene* scene) const override

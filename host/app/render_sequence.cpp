@@ -87,6 +87,8 @@ void RenderJob::moveTo(std::uint32_t frame)
     }
     settings_ = resolveSettings(options_, scene());
     settings_.frame = frame;
+    // A mean over frames of the same numbers were none.
+    settings_.sameNumbers = scene().onlyStylesChange && !filtersOverTime();
 }
 
 /// What is rendered for the frames that are not there yet: these, and those of which they are made, too.

@@ -2,9 +2,11 @@
 
 #include "host/device/memory_plan.h"
 #include "host/graph/plan.h"
+#include "host/graph/rerun.h"
 #include "host/render/frame_graph.h"
 
 #include <memory>
+#include <optional>
 
 namespace wedge::render {
 
@@ -22,8 +24,13 @@ public:
     const graph::Plan& plan() const { return plan_; }
     bool isOf(const Settings& settings, bool keepLayers) const
     {
-        return declared_->settings() == settings && declared_->keepsLayers() == keepLayers;
+        Settings own = declared_->settings();
+        own.frame = own.sameNumbers ? settings.frame : own.frame; // they are the same frame
+        return own == settings && declared_->keepsLayers() == keepLayers;
     }
+    /// The values of the last run, where that was whole and its memory is still as it left it.
+    std::optional<graph::ChangingValues> kept;
+    bool runsAgain = false; ///< its next run is of these, for the scene has changed in nothing but such values
 
 private:
     std::unique_ptr<FrameGraph> declared_;

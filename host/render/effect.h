@@ -47,6 +47,7 @@ struct Unfiltered {
     std::string name; ///< of its planes
     std::string layer = {}; ///< one of its effect's; "" where it has none
     double workUnits = 0;
+    bool changes = false; ///< some of its passes' values are changing() (host/graph/graph.h)
     /// Declares its passes, which add to the radiance that the receivers reflect, 0 before. They tally their rays as
     /// the receivers say.
     std::function<void(FrameBuilder&, ReceiverSet&, graph::Handle<Radiance>&)> sample;

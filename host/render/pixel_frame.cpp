@@ -158,12 +158,29 @@ void PixelFrame::addUnfiltered(const Unfiltered& added)
     added.sample(f_, pixels, radiance);
     pixels.countRays();
     Sum& sum = f_.totals.direct;
-    f_.pixels("composite", PassKind::Composite, { "frame/sums.cl", "addUnfiltered" },
-        { f_.rectangle(f_.analysisParams()), reads("radiance", radiance), updates("direct", sum.filtered),
-            updates("directNoisy", sum.noisy) });
+    if (added.changes) {
+        addChanging(radiance);
+    } else {
+        f_.pixels("composite", PassKind::Composite, { "frame/sums.cl", "addUnfiltered" },
+            { f_.rectangle(f_.analysisParams()), reads("radiance", radiance), updates("direct", sum.filtered),
+                updates("directNoisy", sum.noisy) });
+    }
     if (keepsLayers_ && !added.layer.empty()) {
         outputs_.add(added.layer, radiance, Where::OnSurfaces);
     }
+}
+
+void PixelFrame::addChanging(const graph::Handle<Radiance>& radiance)
+{
+    auto filtered = graph_.plane<Radiance>("direct with what changes", graph::vectors);
+    auto noisy = graph_.plane<Radiance>("direct noisy with what changes", graph::vectors);
+    f_.zero(filtered, noisy);
+    Sum& sum = f_.totals.direct;
+    f_.pixels("composite", PassKind::Composite, { "frame/sums.cl", "addChanging" },
+        { f_.rectangle(f_.analysisParams()), reads("radiance", radiance), reads("direct", sum.filtered),
+            reads("directNoisy", sum.noisy), updates("sum", filtered), updates("sumNoisy", noisy) });
+    sum.filtered = filtered;
+    sum.noisy = noisy;
 }
 
 void PixelFrame::addReflected(

@@ -20,6 +20,9 @@ private:
     /// Terms of the one part, of all those of the frame.
     void addTerms(Part part);
     void addUnfiltered(const Unfiltered& added);
+    /// Adds to direct light what may change when the frame is run again: in the place of its planes others are used
+    /// from here on, so that those stay as they are.
+    void addChanging(const graph::Handle<Radiance>& radiance);
     /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples. Where the
     /// light is read apart the sum becomes that.
     void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);

@@ -18,6 +18,7 @@
 #include <numeric>
 #include <set>
 #include <unistd.h>
+#include <utility>
 
 namespace wedge::render {
 
@@ -113,6 +114,11 @@ void Renderer::buildPrograms()
 void Renderer::changeScene(const scene::Change& change, const std::function<void(scene::Scene&)>& alter)
 {
     queue_.finish();
+    if (change.onlyKnobs && compiled_ && compiled_->kept) {
+        compiled_->runsAgain = true; // its passes find the knobs where they are
+        scene_.change(change, alter);
+        return;
+    }
     frame_.reset();
     compiled_.reset(); // it refers to the scene
     planned_.reset();
@@ -369,7 +375,20 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
 bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
     graph::Execution execution(compiled_->plan(), memory_, *kernels_, queue_);
-    return run(execution, stop, rehearsal);
+    std::optional<graph::ChangingValues> before;
+    std::swap(before, compiled_->kept);
+    const bool again = std::exchange(compiled_->runsAgain, false) && before && !rehearsal;
+    bool whole = true;
+    if (again) {
+        whole = execution.runAgain(*before, stop);
+        frame_ = compiled_->declared().outputs(execution);
+    } else {
+        whole = run(execution, stop, rehearsal);
+    }
+    if (whole && !rehearsal && compiled_->plan().runsAgain) {
+        compiled_->kept = execution.changingValues();
+    }
+    return whole;
 }
 
 bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal)

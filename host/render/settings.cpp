@@ -347,7 +347,7 @@ std::uint32_t pixelFilterOf(const Settings& s)
 
 std::uint32_t frameSeed(const Settings& settings)
 {
-    const std::uint32_t frame = settings.frame.value_or(0);
+    const std::uint32_t frame = settings.sameNumbers ? 0 : settings.frame.value_or(0);
     return frame == 0 ? settings.seed : shared::hashCombine(settings.seed, frame);
 }
 

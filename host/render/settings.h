@@ -232,6 +232,7 @@ struct Settings {
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
     std::optional<std::uint32_t> frame; ///< its number in a sequence, which enters the random numbers
+    bool sameNumbers = false; ///< all frames of the sequence have the random numbers of frame 0
     Temporal temporal = Temporal::Off; ///< of sequences: whose filter each frame ends with (filters/temporal)
 
     Integrator integrator = Integrator::Path;
@@ -313,7 +314,8 @@ Settings asPublished(std::optional<float> mu = {});
 /// them.
 Settings halfAt(const Settings& settings, int spp);
 
-/// The seed of a frame's random numbers: of frame 0, and of a frame of no sequence, the settings' own.
+/// The seed of a frame's random numbers: of frame 0, of a frame of no sequence, and where all have the same, the
+/// settings' own.
 std::uint32_t frameSeed(const Settings& settings);
 
 /// The pixels that a frame of these settings produces: the crop, or all.

@@ -123,6 +123,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     if (!s.styles) {
         out.emplace_back("styles", "off");
     }
+    if (s.sameNumbers) {
+        out.emplace_back("sequence", "same random numbers");
+    }
     if (s.maxSurfaces != Settings().maxSurfaces) {
         out.emplace_back("maxSurfaces", number(s.maxSurfaces));
     }

@@ -5,8 +5,21 @@
 #include "host/scene/scene_sections.h"
 #include "host/scene/style_section.h"
 
+#include <algorithm>
+
 namespace wedge::scene {
 namespace {
+
+bool hasKeys(const std::vector<ShadowStyle>& styles)
+{
+    return std::ranges::any_of(styles, [](const ShadowStyle& style) { return !style.keys.empty(); });
+}
+
+bool stylesHaveKeys(const Scene& scene)
+{
+    const auto has = [](const auto& light) { return hasKeys(light.styles); };
+    return std::ranges::any_of(scene.pointLights, has) || std::ranges::any_of(scene.directionalLights, has);
+}
 
 /// All but the geometry.
 Moment momentOf(const Scene& scene)
@@ -50,6 +63,15 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     brought_ = lightsOfExtensions(scene);
     scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     scene.textures = textures_.take();
+    scene.onlyStylesChange = stylesHaveKeys(scene) && !hasOtherKeys();
+}
+
+bool SceneFile::hasOtherKeys()
+{
+    std::vector<TableReader> lights = root_.tables("light");
+    std::optional<TableReader> camera = root_.table("camera");
+    return meshes_->mayMove() || (camera && camera->has("key"))
+        || std::ranges::any_of(lights, [](TableReader& light) { return light.has("key"); });
 }
 
 Moment SceneFile::at(double later)

@@ -27,6 +27,8 @@ public:
 
 private:
     void read(Scene& scene, Warnings& warnings);
+    /// Whether anything has keys but styles of shadows.
+    bool hasOtherKeys();
 
     std::filesystem::path path_;
     toml::table document_;

@@ -111,7 +111,7 @@ void readPoint(TableReader& table, const LightPose& pose, Scene& scene)
     light.position = settled(pose.point(readPlace(table, "position")));
     light.intensity = table.require("intensity", table.colour("intensity"));
     light.name = table.text("name").value_or("");
-    light.styles = readStyles(table);
+    light.styles = readStyles(table, scene.shutterOpen);
     scene.pointLights.push_back(light);
 }
 
@@ -124,7 +124,7 @@ void readDirectional(TableReader& table, const LightPose& pose, Scene& scene)
     light.direction = glm::vec3(glm::normalize(pose.vector(direction)));
     light.irradiance = table.require("irradiance", table.colour("irradiance"));
     light.name = table.text("name").value_or("");
-    light.styles = readStyles(table);
+    light.styles = readStyles(table, scene.shutterOpen);
     scene.directionalLights.push_back(light);
 }
 

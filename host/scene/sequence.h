@@ -25,6 +25,8 @@ struct Moment {
 struct Change {
     bool lights = false; ///< those of Scene's lists
     bool geometry = false;
+    /// Knobs of shadows' styles and nothing else, its camera neither: what frames have but for these can be kept.
+    bool onlyKnobs = false;
 };
 
 /// What takes a scene from where it is to another moment. Equal geometry is none: it is dropped from the moment.

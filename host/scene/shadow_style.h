@@ -37,6 +37,9 @@ struct ShadowStyle {
     /// they are. Empty: all.
     std::vector<std::string> casters, receivers;
 
+    /// Of one that changes over time: what it is at its keys. All else is as of the moment. Empty: it never changes.
+    std::vector<ShadowStyle> keys;
+
     bool operator==(const ShadowStyle&) const = default;
 };
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "host/scene/keyframes.h"
 #include "host/scene/nearest.h"
 #include "host/scene/object_names.h"
 #include "host/scene/validate.h"
@@ -34,11 +36,13 @@ std::vector<double> readQuadratic(TableReader& table, const std::string& key, bo
     return at;
 }
 
-/// A length: a number, or { at = [a, b, c] }.
-Knob<float> readLength(TableReader& table, const std::string& key, double least)
+/// A length: a number, or { at = [a, b, c] }. Where it is not there, as it was.
+Knob<float> readLength(TableReader& table, const std::string& key, double least, const Knob<float>& before)
 {
-    if (!table.isTable(key))
-        return static_cast<float>(table.number(key, least, maxCoordinate).value_or(0.0));
+    if (!table.isTable(key)) {
+        const std::optional<double> metres = table.number(key, least, maxCoordinate);
+        return metres ? Knob<float>(static_cast<float>(*metres)) : before;
+    }
     const std::vector<double> at = readQuadratic(table, key, false);
     const Knob<float> knob(static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]));
     if (!knob.varies() && !(at[0] >= least))
@@ -46,10 +50,10 @@ Knob<float> readLength(TableReader& table, const std::string& key, double least)
     return knob;
 }
 
-/// What is left of the light: a number or a colour, or such for each coefficient.
-Knob<glm::vec3> readBrightness(TableReader& table)
+/// What is left of the light: a number or a colour, or such for each coefficient. Where it is not there, as it was.
+Knob<glm::vec3> readBrightness(TableReader& table, const Knob<glm::vec3>& before)
 {
-    Knob<glm::vec3> knob;
+    Knob<glm::vec3> knob = before;
     if (table.isTable("brightness")) {
         const std::vector<double> at = readQuadratic(table, "brightness", true);
         const auto colour = [&](std::size_t k) {
@@ -57,8 +61,8 @@ Knob<glm::vec3> readBrightness(TableReader& table)
                                   : glm::vec3(glm::dvec3(at[3 * k], at[3 * k + 1], at[3 * k + 2]));
         };
         knob = { colour(0), colour(1), colour(2) };
-    } else {
-        knob = table.colour("brightness").value_or(glm::vec3(0.0f));
+    } else if (const std::optional<glm::vec3> colour = table.colour("brightness")) {
+        knob = *colour;
     }
     const glm::vec3& left = knob.constant;
     const float least = std::min({ left.x, left.y, left.z }), most = std::max({ left.x, left.y, left.z });
@@ -67,19 +71,55 @@ Knob<glm::vec3> readBrightness(TableReader& table)
     return knob;
 }
 
-/// One [[light.style]]. several: it has to say what its share is.
-ShadowStyle readStyle(TableReader& table, bool several)
+/// What a table says of knobs; of others it leaves the style's alone.
+void readKnobs(TableReader& table, ShadowStyle& style)
+{
+    style.inflation = readLength(table, "inflation", -maxCoordinate, style.inflation);
+    style.softness = readLength(table, "softness", 0.0, style.softness);
+    style.abstraction = readLength(table, "abstraction", 0.0, style.abstraction);
+    style.brightness = readBrightness(table, style.brightness);
+}
+
+template <class T>
+Knob<T> between(const Knob<T>& a, const Knob<T>& b, double weight)
+{
+    const auto w = static_cast<float>(weight);
+    const auto mixed = [&](T Knob<T>::*part) { return a.*part + (b.*part - a.*part) * w; };
+    return { mixed(&Knob<T>::constant), mixed(&Knob<T>::linear), mixed(&Knob<T>::square) };
+}
+
+/// Reads a style's keys, [[light.style.key]], and gives it the knobs that it has at that time.
+void readKeys(TableReader& table, ShadowStyle& style, double time)
+{
+    std::vector<double> times;
+    std::vector<ShadowStyle> keys;
+    for (TableReader& key : table.tables("key")) {
+        times.push_back(readKeyTime(key, times));
+        readKnobs(key, keys.emplace_back(style));
+        key.finish();
+    }
+    if (keys.empty())
+        return;
+    const KeySpan span = spanAt(times, time);
+    const ShadowStyle &a = keys[span.from], &b = keys[span.to];
+    style.inflation = between(a.inflation, b.inflation, span.weight);
+    style.softness = between(a.softness, b.softness, span.weight);
+    style.abstraction = between(a.abstraction, b.abstraction, span.weight);
+    style.brightness = between(a.brightness, b.brightness, span.weight);
+    style.keys = std::move(keys);
+}
+
+/// One [[light.style]] at that time. several: it has to say what its share is.
+ShadowStyle readStyle(TableReader& table, bool several, double time)
 {
     ShadowStyle style;
     const std::optional<double> weight = table.number("weight", 0.0, 1.0);
     style.weight = static_cast<float>(several ? table.require("weight", weight) : weight.value_or(1.0));
-    style.inflation = readLength(table, "inflation", -maxCoordinate);
-    style.softness = readLength(table, "softness", 0.0);
-    style.abstraction = readLength(table, "abstraction", 0.0);
-    style.brightness = readBrightness(table);
     style.keepArea = table.boolean("keep_area").value_or(style.keepArea);
     style.casters = table.names("casters");
     style.receivers = table.names("receivers");
+    readKnobs(table, style);
+    readKeys(table, style, time);
     table.finish();
     return style;
 }
@@ -100,20 +140,20 @@ void checkNames(TableReader& style, const std::string& key, const std::vector<st
 bool changesNothing(const ShadowStyle& style)
 {
     const Knob<float> none;
-    return style.inflation == none && style.softness == none && style.abstraction == none
+    return style.keys.empty() && style.inflation == none && style.softness == none && style.abstraction == none
         && style.brightness == Knob<glm::vec3>();
 }
 
 } // namespace
 
-std::vector<ShadowStyle> readStyles(TableReader& light)
+std::vector<ShadowStyle> readStyles(TableReader& light, double time)
 {
     std::vector<TableReader> tables = light.tables("style");
     std::vector<ShadowStyle> styles;
     styles.reserve(tables.size());
     double sum = 0.0;
     for (TableReader& table : tables) {
-        styles.push_back(readStyle(table, tables.size() > 1));
+        styles.push_back(readStyle(table, tables.size() > 1, time));
         sum += double { styles.back().weight };
     }
     if (!styles.empty() && !(std::abs(sum - 1.0) <= weightsOff))

@@ -18,6 +18,23 @@ __kernel void addUnfiltered(PARAMETERS)
 }
 #endif
 
+/// The same of light that may change when the frame is run again: into planes of their own, so that it can be added
+/// anew.
+///
+/// in      p, radiance, direct, directNoisy
+/// in out  sum, sumNoisy: 0 before
+#include "pass/addChanging.h"
+#ifdef PASS_addChanging
+__kernel void addChanging(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    const Vec3 more = loadVec(radiance, n, i);
+    storeVec(sum, n, i, vecAdd(loadVec(direct, n, i), more));
+    storeVec(sumNoisy, n, i, vecAdd(loadVec(directNoisy, n, i), more));
+}
+#endif
+
 /// beauty = emission + direct + indirect (3 planes each).
 #include "pass/addAll.h"
 #ifdef PASS_addAll

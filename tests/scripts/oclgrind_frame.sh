@@ -128,6 +128,9 @@ sed -e "s|meshes/|$scenes/meshes/|" -e "s|^inflation = .*|inflation = { at = [0,
 check styled_away "$work/styled_away.toml" --traversal wide --size 19x13 --method mc --spp 1
 sed "s|^brightness = .*|casters = 'fence'\nreceivers = 'floor'|" "$work/styled_away.toml" >"$work/styled_lists.toml"
 check styled_lists "$work/styled_lists.toml" --traversal wide --size 19x13 --method mc --spp 1
+sed -e "s#\"meshes/#\"$scenes/meshes/#" -e 's/^softness = .*/&\nkey = [{ time = 0 }, { time = 1, inflation = 0.1 }]/' \
+    "$scenes/styled.toml" >"$work/styled_keys.toml"
+check styled_keys "$work/styled_keys.toml" --traversal wide --size 19x13 --method mc --spp 1
 check styled_scalar "$scenes/styled.toml" --traversal scalar --size 9x7 --method mc --spp 1
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 # Microfacets, normal maps and heights, and cut-outs.
