@@ -1,5 +1,5 @@
-// The benchmark of filters of samples and of images, and of shadows by lights, run as its users do but tiny: the form
-// of what it writes, and what holds of its numbers whatever a machine is like; never a time.
+// The benchmark of filters of samples and of images, of shadows by lights and of shadows in a style, run as its users
+// do but tiny: the form of what it writes, and what holds of its numbers whatever a machine is like; never a time.
 #include "tests/benchmark_testing.h"
 
 #include <cmath>
@@ -261,6 +261,66 @@ TEST_CASE("shadows by lights: maps that are not there are skipped by name, and o
         == shadowPoint(all["scenes"][3], "additive", 40)["errors"]);
 }
 
+/// The style's own pieces of edge count, so that the device's distances are those of the host.
+void checkStylized(const Json& scene)
+{
+    CHECK(keys(scene)
+        == std::set<std::string> {
+            "edge_pieces", "errors", "ms", "name", "origin", "restyle_abstraction_ms", "restyle_ms" });
+    CHECK(scene["edge_pieces"].get<int>() > 50);
+    CHECK(keys(scene["ms"])
+        == std::set<std::string> { "blur", "distance", "edges", "frame", "matte", "no_style", "transfer" });
+    const bool blurs = !scene["restyle_abstraction_ms"].is_null();
+    for (const auto& entry : scene["ms"].items()) {
+        INFO(entry.key());
+        CHECK((entry.value()["median"].get<double>() > 0) == (blurs || entry.key() != "blur"));
+    }
+    CHECK(scene["restyle_ms"]["median"].get<double>() > 0);
+    const Json& errors = scene["errors"];
+    CHECK(errors["pixels"].get<int>() > 100);
+    CHECK(errors["device"].get<double>() < 0.01);
+    REQUIRE(errors["sampled"].size() == 2);
+    CHECK(errors["sampled"][0]["pieces"] == 8);
+    // Fewer pieces are worse, and all of them far better.
+    const double few = errors["sampled"][0]["rms"].get<double>(), many = errors["sampled"][1]["rms"].get<double>();
+    CHECK(few >= many);
+    CHECK(many > 2 * errors["device"].get<double>());
+}
+
+TEST_CASE("shadows in a style: pieces of edge, times of their passes, distances against those of the host")
+{
+    const Workplace place;
+    const Outcome outcome = place.run({ "stylized", "--quick", "--scene", "styled", "--scene", "balls", "--samples",
+        "8,128", "--json", "results.json" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["benchmark"] == "rendering_filters");
+    CHECK(all["subject"] == "stylized");
+    CHECK(all["plan"]["width"] == 160);
+    CHECK(all["plan"]["samples"] == Json({ 8, 128 }));
+    REQUIRE(all["scenes"].size() == 2);
+    for (const Json& scene : all["scenes"]) {
+        CAPTURE(scene["name"]);
+        checkStylized(scene);
+        CHECK(contains(outcome.out, scene["name"].get<std::string>()));
+    }
+    CHECK(all["scenes"][0]["name"] == "styled");
+    CHECK(all["scenes"][1]["restyle_abstraction_ms"].is_null());
+    const std::string name = "rendering_filters.stylized_styled.";
+    CHECK(claim(all["claims"], name + "edge_pieces")["value"] == all["scenes"][0]["edge_pieces"]);
+    CHECK(claim(all["claims"], name + "distance_ms")["value"] == all["scenes"][0]["ms"]["distance"]["median"]);
+    CHECK(claim(all["claims"], name + "distance_ms")["goal"].is_null()); // of other sizes
+    CHECK(claim(all["claims"], name + "restyle_ms")["value"] == all["scenes"][0]["restyle_ms"]["median"]);
+    CHECK(claim(all["claims"], name + "distance_error")["value"] == all["scenes"][0]["errors"]["device"]);
+    // All numbers but the times are the same again.
+    const Outcome again =
+        place.run({ "stylized", "--quick", "--scene", "balls", "--samples", "8,128", "--json", "again.json" });
+    REQUIRE(again.status == 0);
+    const Json second = Json::parse(place.text("again.json"));
+    CHECK(second["scenes"][0]["errors"] == all["scenes"][1]["errors"]);
+    CHECK(second["scenes"][0]["edge_pieces"] == all["scenes"][1]["edge_pieces"]);
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;
@@ -283,6 +343,11 @@ TEST_CASE("wrong calls end in one line")
                 "way of shadows: --way magic: choose among: additive; subtractive" },
             { { "shadow-lights", "--lights", "0" }, 2, "--lights" },
             { { "shadow-lights", "--scene", "atlantis" }, 2, "grace_matt, grace_phong40" },
+            { { "stylized", "--scene", "atlantis" }, 2, "styled, balls, balls_smooth, balls_wide, squares" },
+            { { "stylized", "--samples", "0" }, 2, "--samples" },
+            { { "stylized", "--variant", "path-density" }, 2, "--variant" },
+            { { "stylized", "--reference-spp", "8" }, 2, "--reference-spp" },
+            { { "stylized", "--scene", box }, 1, "give a point or directional light a [[light.style]]" },
             { { "shadow-lights", "--scene", box }, 1, "give it an [environment]" },
         });
 }

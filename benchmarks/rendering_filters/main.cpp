@@ -1,10 +1,11 @@
 // rendering_filters: filters of samples and of images against plain means of path-traced light, and an environment's
-// light by lights and shadows; docs/benchmarks.md.
+// light by lights and shadows, and hard shadows in a style; docs/benchmarks.md.
 #include "benchmarks/common/program.h"
 #include "benchmarks/rendering_filters/call.h"
 #include "benchmarks/rendering_filters/filter_lab.h"
 #include "benchmarks/rendering_filters/results.h"
 #include "benchmarks/rendering_filters/shadow_lights.h"
+#include "benchmarks/rendering_filters/stylized.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -116,6 +117,7 @@ int main(int argc, char** argv)
         "rendering_filters");
     Call call;
     addCommonOptions(parser, call, call.plan);
+    addReferenceOptions(parser, call.plan);
     parser
         .add_option("--variant", call.variants,
             "a filter as --add-filter of wedge render takes it; again for more (all in the table)")
@@ -133,8 +135,13 @@ int main(int argc, char** argv)
     parser.add_option("--python", call.python, "an interpreter that has pyoidn, for denoised images (python3)");
     ShadowCall shadows;
     CLI::App& shadowLights = addShadowLights(parser, shadows);
+    StylizedCall styles;
+    CLI::App& stylized = addStylized(parser, styles);
     for (CLI::Option* option : parser.get_options([](const CLI::Option* o) { return o->get_name() != "--help"; })) {
-        shadowLights.excludes(option); // it has its own
+        shadowLights.excludes(option); // they have their own
+        stylized.excludes(option);
     }
-    return runProgram(parser, argc, argv, [&] { return shadowLights.parsed() ? runShadowLights(shadows) : run(call); });
+    return runProgram(parser, argc, argv, [&] {
+        return shadowLights.parsed() ? runShadowLights(shadows) : stylized.parsed() ? runStylized(styles) : run(call);
+    });
 }

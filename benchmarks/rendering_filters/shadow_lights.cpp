@@ -56,6 +56,7 @@ CLI::App& addShadowLights(CLI::App& parser, ShadowCall& call)
         "--quick", [&call] { makeQuick(call.plan); },
         "120x90, three counts, small references, one repeat: to see that it works, not to report");
     addCommonOptions(out, call, call.plan);
+    addReferenceOptions(out, call.plan);
     out.add_option("--way", call.ways, "a way of the table; again for more (all in the table)")
         ->expected(1)
         ->take_all();

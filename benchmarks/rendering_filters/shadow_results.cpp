@@ -129,16 +129,4 @@ std::string tableOf(const ShadowedScene& scene)
     return out;
 }
 
-std::string goalsTable(const std::vector<Claim>& claims)
-{
-    std::string out;
-    for (const Claim& claim : claims) {
-        if (claim.goal) {
-            out += fmt::format("{:<64} {:>8.3f}  at most {:<5} {}\n", claim.id, claim.value, *claim.goal,
-                claim.value <= *claim.goal ? "reached" : "not reached");
-        }
-    }
-    return out;
-}
-
 } // namespace wedge::benchmark

@@ -22,7 +22,5 @@ std::vector<Claim> claimsOf(const ShadowedScene& scene);
 std::vector<Claim> meanClaims(const std::vector<ShadowedScene>& scenes);
 Json dataOf(const ShadowedScene& scene);
 std::string tableOf(const ShadowedScene& scene);
-/// Those claims that have a goal, beside it; every goal is an upper bound. Empty where there are none.
-std::string goalsTable(const std::vector<Claim>& claims);
 
 } // namespace wedge::benchmark
