@@ -70,6 +70,24 @@ std::vector<StyledLight> styledLights(const Settings& settings, const scene::Sce
     return out;
 }
 
+std::vector<StyleGroup> groupsOf(const StyledLight& light)
+{
+    std::vector<StyleGroup> groups;
+    for (std::size_t i = 0; i < light.styles.size(); ++i) {
+        const auto same = [&](const StyleGroup& group) {
+            return group.styles.front().casters == light.styles[i].casters;
+        };
+        const auto known = std::ranges::find_if(groups, same);
+        StyleGroup& group = known == groups.end() ? groups.emplace_back() : *known;
+        group.styles.push_back(light.styles[i]);
+        group.places.push_back(i);
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        groups[i].name = i == 0 ? light.name : fmt::format("{}.{}", light.name, i + 1);
+    }
+    return groups;
+}
+
 void requireStylable(const Settings& settings, const scene::Scene& scene)
 {
     const std::vector<StyledLight> lights = styledLights(settings, scene);

@@ -3,6 +3,7 @@
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -24,6 +25,16 @@ const scene::ShadowStyle& styleOf(const scene::Scene& scene, std::uint32_t light
 
 /// Lights whose shadows frames of these settings draw in a style; refers to the scene.
 std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene);
+
+/// Those of a light's styles that have the same casters.
+struct StyleGroup {
+    std::string name; ///< of its layers: the light's, of the second and later ones with a number
+    std::vector<scene::ShadowStyle> styles;
+    std::vector<std::size_t> places; ///< of these, among all of the light
+};
+
+/// In the order of the first style of each.
+std::vector<StyleGroup> groupsOf(const StyledLight& light);
 
 /// Throws UsageError where there are any and pixels have several receivers: shadows are drawn of one point a pixel.
 void requireStylable(const Settings& settings, const scene::Scene& scene);

@@ -14,8 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace wedge::render {
 
 using device::PassKind;
@@ -341,31 +339,6 @@ private:
     graph::Handle<Share> share_;
 };
 
-/// Calls visit(light, places) for a light with those of its styles that have the same casters, and where they are among
-/// all of its styles, for each such group in the order of their first; the second and later ones' layers are numbered.
-template <class Visit>
-void eachGroup(const StyledLight& light, const Visit& visit)
-{
-    struct Group {
-        std::vector<scene::ShadowStyle> styles;
-        std::vector<std::size_t> places;
-    };
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < light.styles.size(); ++i) {
-        const auto same = [&](const Group& group) { return group.styles.front().casters == light.styles[i].casters; };
-        const auto known = std::ranges::find_if(groups, same);
-        Group& group = known == groups.end() ? groups.emplace_back() : *known;
-        group.styles.push_back(light.styles[i]);
-        group.places.push_back(i);
-    }
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-        StyledLight part = light;
-        part.styles = groups[i].styles;
-        part.name += i == 0 ? "" : fmt::format(".{}", i + 1);
-        visit(part, groups[i].places);
-    }
-}
-
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
     for (const StyledLight& light : styledLights(f.settings, f.description)) {
@@ -373,9 +346,12 @@ void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
         for (const scene::ShadowStyle& style : light.styles) {
             weights += style.weight;
         }
-        eachGroup(light, [&](const StyledLight& part, const std::vector<std::size_t>& places) {
-            StyledShadow(f, at, part, places, weights).declare(radiance);
-        });
+        for (const StyleGroup& group : groupsOf(light)) {
+            StyledLight part = light;
+            part.name = group.name;
+            part.styles = group.styles;
+            StyledShadow(f, at, part, group.places, weights).declare(radiance);
+        }
     }
 }
 
