@@ -6,19 +6,21 @@ using namespace wedge;
 using namespace wedge::test;
 using namespace wedge::test::shadows;
 
-TEST_CASE("countAreas and keepArea: the distance below which as much lies as was in shadow")
+TEST_CASE("countAreas, sumAreas and keepArea: the distance below which as much lies as was in shadow")
 {
     onEveryDevice([](const device::Device& device) {
         Traced traced(device);
         const Seen s(traced);
-        PassBench count(traced.frame, "countAreas"), keep(traced.frame, "keepArea");
+        PassBench count(traced.frame, "countAreas"), sum(traced.frame, "sumAreas"), keep(traced.frame, "keepArea");
         traced.give(count);
         std::mt19937 random(1);
         const Planes<float> distance =
             planesOf(traced.frame.layout, someNumbers(random, traced.frame.layout.size, -0.1, 0.17));
         count.plane("distance", distance);
         count.run();
-        keep.plane("areas", count.read<float>("areas"));
+        sum.plane("areas", count.read<float>("areas"));
+        sum.run();
+        keep.plane("sums", sum.read<float>("sums"));
         keep.run();
         const double zero = keep.read<float>("zeros").at(0), range = count.own<float>("range");
         CHECK(range == doctest::Approx(3 * abstraction));
@@ -36,7 +38,9 @@ TEST_CASE("countAreas and keepArea: the distance below which as much lies as was
         for (const float v : { WEDGE_MATTE_LIT, WEDGE_MATTE_SHADOW }) {
             count.plane("matte", std::vector<float>(traced.frame.layout.size, v));
             count.run();
-            keep.plane("areas", count.read<float>("areas"));
+            sum.plane("areas", count.read<float>("areas"));
+            sum.run();
+            keep.plane("sums", sum.read<float>("sums"));
             keep.run();
             CHECK(keep.read<float>("zeros").at(0) == 0);
         }

@@ -1,9 +1,9 @@
 #include "effects/styled_shadows/styled_shadows.h"
 
+#include "effects/styled_shadows/object_list.h"
 #include "effects/styled_shadows/style_knobs.h"
 #include "effects/styled_shadows/styled_lights.h"
 #include "host/graph/lists.h"
-#include "host/scene/object_names.h"
 #include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
@@ -115,38 +115,14 @@ private:
             others_ = f_.graph.plane<Matte>("matte of other shadows", graph::floats);
             f_.fill("unknown", others_, WEDGE_MATTE_UNKNOWN);
             passes = joined(passes, Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds) },
-                members("casters", light_.styles.front().casters), Arguments { updates("others", others_) });
+                objectList(f_, "casters", light_.styles.front().casters), Arguments { updates("others", others_) });
         }
         at_.trace("shadows in a style", { edgesProgram, casters_ ? "shadowOfCasters" : "shadowMatte" },
             std::move(passes), [](const Launch&) { return 1.0; });
     }
 
-    /// A list of 1 or 0 for each object's id and for 0: whether it goes by one of these names; and how many they are.
-    Arguments members(const char* name, const std::vector<std::string>& names)
-    {
-        const std::vector<std::string>& objects = f_.description.geometry.objectNames;
-        std::vector<std::uint32_t> flags(objects.size() + 1, 0);
-        for (std::size_t i = 0; i < objects.size(); ++i) {
-            const auto calls = [&](const std::string& called) { return scene::isCalled(objects[i], called); };
-            flags[i + 1] = std::ranges::any_of(names, calls) ? 1 : 0;
-        }
-        const auto count = static_cast<std::uint32_t>(flags.size());
-        auto list = f_.graph.list<Count>(name, graph::counts, count);
-        f_.graph.add({ .name = name,
-            .kind = PassKind::Transfer,
-            .arguments = { writes("list", list) },
-            .domain = graph::Domain::Host,
-            .step =
-                [flags = std::move(flags), list](graph::Run& run) {
-                    if (!run.rehearsal()) {
-                        run.buffer<std::uint32_t>(list).upload(run.queue(), flags);
-                    }
-                },
-            .constant = true });
-        return graph::together("members", { reads(name, list), graph::unlessEmpty("objects", count) });
-    }
-
-    void distances()
+    /// The pieces of the shadow's edge, and boxes around them.
+    Arguments edges() const
     {
         const auto tilesAlong = [](int pixels) {
             return std::max((static_cast<std::uint32_t>(pixels) + WEDGE_EDGE_TILE - 2) / WEDGE_EDGE_TILE, 1u);
@@ -170,10 +146,16 @@ private:
                     occluder(), reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
         const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
         auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
-        const Arguments listed { reads("edges", edges), reads("listed", places.listed),
-            graph::unlessEmpty("most", capacity), value("room", room) };
+        Arguments listed { reads("edges", edges), reads("listed", places.listed), graph::unlessEmpty("most", capacity),
+            value("room", room) };
         f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "boundEdges" }, chunks,
             joined(listed, Arguments { writes("boxes", boxes) }));
+        listed.push_back(reads("boxes", boxes));
+        return listed;
+    }
+
+    void distances()
+    {
         const Arguments facing = graph::together(
             "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
         distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
@@ -188,9 +170,8 @@ private:
             .kernel = { distanceProgram, "shadowDistance" },
             .arguments = joined({ f_.rectangle(f_.analysisParams()) }, facing,
                 Arguments { reads("matte", matte_), occluder() },
-                graph::together("edges",
-                    joined(listed,
-                        Arguments { reads("boxes", boxes), value("published", f_.settings.published ? 1u : 0u) })),
+                graph::together(
+                    "edges", joined(edges(), Arguments { value("published", f_.settings.published ? 1u : 0u) })),
                 Arguments { value("unit", unitOf(largest_)), value("largest", largest_), value("farthest", farthest_),
                     updates("distance", distance_), varies_ ? updates("away", away_) : graph::absent("away") }),
             .domain = graph::Domain::Tiles,
@@ -270,10 +251,18 @@ private:
             { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), range,
                 reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
                 writes("areas", areas) });
+        auto sums = f_.graph.list<Edges>("areas in shadow, together", graph::floats, WEDGE_AREA_NUMBERS);
+        f_.graph.add({ .name = "areas of shadows",
+            .kind = PassKind::Analysis,
+            .kernel = { stylesProgram, "sumAreas" },
+            .arguments = { graph::unlessEmpty("numbers", WEDGE_AREA_NUMBERS),
+                graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), reads("areas", areas), writes("sums", sums) },
+            .domain = graph::Domain::Items,
+            .count = [](const Launch&) { return std::size_t { WEDGE_AREA_NUMBERS }; },
+            .mostItems = WEDGE_AREA_NUMBERS });
         auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
         f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "keepArea" }, 1,
-            { graph::unlessEmpty("items", 1), value("stripes", WEDGE_AREA_STRIPES), range, reads("areas", areas),
-                writes("zeros", zeros) });
+            { graph::unlessEmpty("items", 1), range, reads("sums", sums), writes("zeros", zeros) });
         return zeros;
     }
 
@@ -297,7 +286,7 @@ private:
         if (light_.styles[style].receivers.empty()) {
             passes.push_back(graph::absent("receivers", graph::counts));
         } else {
-            passes = joined(passes, members("receivers", light_.styles[style].receivers),
+            passes = joined(passes, objectList(f_, "receivers", light_.styles[style].receivers),
                 Arguments { reads("matte", matte_), reads("objectId", f_.surfaces.objectId) });
         }
         f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" }, std::move(passes));

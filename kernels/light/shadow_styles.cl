@@ -38,9 +38,29 @@ __kernel void countAreas(PARAMETERS)
 }
 #endif
 
+/// The areas of all stripes together.
+///
+/// in   areas, stripes: as of countAreas(); numbers: WEDGE_AREA_NUMBERS
+/// out  sums: as many
+#include "pass/sumAreas.h"
+#ifdef PASS_sumAreas
+__kernel void sumAreas(PARAMETERS)
+{
+    const uint k = (uint)get_global_id(0);
+    if (k >= numbers) {
+        return;
+    }
+    float sum = 0.0f;
+    for (uint stripe = 0u; stripe < stripes; ++stripe) {
+        sum += areas[WEDGE_AREA_NUMBERS * stripe + k];
+    }
+    sums[k] = sum;
+}
+#endif
+
 /// The distance below which as much lies as was in shadow.
 ///
-/// in   areas, stripes, range: as of countAreas(); items: 1
+/// in   sums: of sumAreas(); range: as of countAreas(); items: 1
 /// out  zeros: that one number, metres; 0 where all or nothing is in shadow
 #include "pass/keepArea.h"
 #ifdef PASS_keepArea
@@ -49,24 +69,16 @@ __kernel void keepArea(PARAMETERS)
     if (get_global_id(0) >= items) {
         return;
     }
-    float shadow = 0.0f, light = 0.0f;
-    for (uint stripe = 0u; stripe < stripes; ++stripe) {
-        shadow += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS];
-        light += areas[WEDGE_AREA_NUMBERS * stripe + WEDGE_AREA_BINS + 1u];
-    }
+    const float shadow = sums[WEDGE_AREA_BINS], light = sums[WEDGE_AREA_BINS + 1u];
     zeros[0] = 0.0f;
     float below = 0.0f;
     for (uint k = 0u; k < WEDGE_AREA_BINS && shadow > 0.0f && light > 0.0f; ++k) {
-        float here = 0.0f;
-        for (uint stripe = 0u; stripe < stripes; ++stripe) {
-            here += areas[WEDGE_AREA_NUMBERS * stripe + k];
-        }
-        if (below + here >= shadow) {
-            const float at = (float)k + (shadow - below) / here;
+        if (below + sums[k] >= shadow) {
+            const float at = (float)k + (shadow - below) / sums[k];
             zeros[0] = at * (2.0f * range / (float)WEDGE_AREA_BINS) - range;
             return;
         }
-        below += here;
+        below += sums[k];
     }
 }
 #endif
