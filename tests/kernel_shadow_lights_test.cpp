@@ -11,14 +11,6 @@ using namespace wedge::test::shadows;
 
 namespace {
 
-/// As wide at least as the lights are apart.
-shared::Gloss widened(shared::Gloss gloss)
-{
-    const float spacing = static_cast<float>(count / (4 * std::numbers::pi));
-    gloss.exponent = std::min(gloss.exponent, gloss.kind == WEDGE_PHONG ? spacing : 4 * spacing);
-    return gloss;
-}
-
 void compare(const device::Device& device, const scene::Scene& scene)
 {
     DeclaredFrame frame(device, scene, settings(render::Shadows::Ratio));

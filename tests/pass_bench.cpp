@@ -219,10 +219,7 @@ void PassBench::sinks(const std::vector<graph::Sink>& becoming, const std::vecto
     }
 }
 
-Window PassBench::covered() const
-{
-    return window_.value_or(Window { 0, 0, static_cast<int>(layout.width), static_cast<int>(layout.height) });
-}
+Window PassBench::covered() const { return window_.value_or(emptyGraph().image(pass_.scale)); }
 
 graph::Graph PassBench::emptyGraph() const
 {
@@ -302,7 +299,8 @@ void PassBench::run()
             memory.try_emplace(argument.name, renderer_.device(), renderer_.queue(), contents_.at(argument.name))
                 .first->second;
         graph::Version& version = versions[argument.name];
-        version = graph.imported<Anything>(of.name, of.format, own.cl(), of.plane ? 0 : of.elements);
+        version = of.plane ? graph.imported<Anything>(of.name, of.format, own.cl(), of.scale)
+                           : graph.imported<Anything>(of.name, of.format, own.cl(), of.elements);
         argument.version = version;
         argument.handle = &version;
     }
@@ -333,15 +331,16 @@ bool PassBench::changesBeside(const std::string& name, const std::vector<std::by
         return false; // blocks may reach beyond it
     }
     const std::vector<double> before = anyNumbers(of, name, contents_.at(name)), after = anyNumbers(of, name, contents);
-    std::vector<char> inside(layout.size, 0);
+    const graph::PlaneLayout lies = emptyGraph().layout(pass_.scale); // as all planes that it changes
+    std::vector<char> inside(lies.size, 0);
     const Window window = covered();
     for (int y = window.y0; y < window.y1; ++y) {
-        const auto first = inside.begin() + layout.stride * y + WEDGE_ROW_PADDING;
+        const auto first = inside.begin() + lies.stride * y + WEDGE_ROW_PADDING;
         std::fill(first + window.x0, first + window.x1, char { 1 });
     }
     for (std::size_t i = 0; i < after.size(); ++i) {
         const bool same = before[i] == after[i] || (std::isnan(before[i]) && std::isnan(after[i]));
-        if (!same && inside[i % layout.size] == 0) {
+        if (!same && inside[i % lies.size] == 0) {
             return true;
         }
     }

@@ -77,6 +77,13 @@ std::vector<Settings> manySettings()
         s.environment.shadows.shadows = render::Shadows::Ratio;
         s.environment.shadows.whole = render::WholeLight::Prefiltered;
     });
+    for (const std::size_t like : { 0u, 1u }) {
+        add(like, [](Settings& s) {
+            s.environment.shadows.shadows = render::Shadows::Ratio;
+            s.environment.shadows.chosen = 4;
+            s.environment.shadows.blockSide = 4;
+        });
+    }
     add(3, [](Settings& s) {
         s.maaf = render::Maaf::Refitted;
         s.components = 3;

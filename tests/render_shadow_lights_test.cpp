@@ -2,8 +2,8 @@
 #include "effects/environment/suns.h"
 #include "effects/shadow_lights/map_lights.h"
 #include "host/error.h"
-#include "tests/environment_support.h"
 #include "tests/image_means.h"
+#include "tests/shadow_frames.h"
 
 #include <doctest/doctest.h>
 
@@ -12,50 +12,9 @@
 
 using namespace wedge;
 using namespace wedge::test;
+using namespace wedge::test::shadows;
 
 namespace {
-
-constexpr int width = 40, height = 30;
-using render::Shadows;
-using render::WholeLight;
-
-/// As filters have no say in this light, by default without any.
-render::Settings with(Shadows shadows, int lights = 30, WholeLight whole = WholeLight::Map, bool clamp = true)
-{
-    render::Settings s = sized(render::monteCarlo(1), width, height);
-    s.environment.shadows = { shadows, lights, whole, clamp };
-    return s;
-}
-
-/// Things on a floor, without lamps.
-scene::Scene things(const std::shared_ptr<render::EnvironmentPicture>& map, float specular = 0, float exponent = 40,
-    scene::SpecularModel model = scene::SpecularModel::Phong)
-{
-    scene::Scene scene = smallScene();
-    scene.areaLights.clear();
-    scene.background = glm::vec3(0);
-    scene.materials[0].specular = glm::vec3(specular);
-    scene.materials[0].exponent = exponent;
-    scene.materials[0].roughness = 0.4f;
-    scene.materials[0].specularModel = model;
-    render::setEnvironment(scene, map);
-    return scene;
-}
-
-/// A floor that glosses under nothing.
-scene::Scene openGloss(
-    const std::shared_ptr<render::EnvironmentPicture>& map, scene::SpecularModel model, float exponent)
-{
-    SceneBuilder b = openFloor();
-    b.scene.materials[0].diffuse = glm::vec3(0.4f);
-    b.scene.materials[0].specular = glm::vec3(0.3f);
-    b.scene.materials[0].exponent = exponent;
-    b.scene.materials[0].roughness = 0.5f;
-    b.scene.materials[0].specularModel = model;
-    b.camera({ 0, 1.5f, 3 }, { 0, 0, 0 });
-    render::setEnvironment(b.scene, map);
-    return b.scene;
-}
 
 constexpr Shadows ways[] = { Shadows::Additive, Shadows::Subtractive, Shadows::Ratio };
 
@@ -272,7 +231,7 @@ TEST_CASE("what is not direct light of the map stays as it was, and so do frames
         CHECK_FALSE(sameBits(direct, pixels(renderer, "direct", whole)));
         // The rest of the settings has no say where they are not chosen.
         render::Settings other = sampled;
-        other.environment.shadows = { Shadows::Sampled, 9, WholeLight::Lights, false };
+        other.environment.shadows = { Shadows::Sampled, 9, WholeLight::Lights, false, 3, 4 };
         renderer.render(other, {}, true);
         CHECK(sameBits(direct, pixels(renderer, "direct", whole)));
     });
@@ -323,6 +282,16 @@ TEST_CASE("frames of several receivers a pixel have no such lights, and neither 
             "progressive: --shadows ratio: leave it out, or leave out --antialias, --progressive, the lens and what "
             "moves",
             UsageError);
+        for (const int chosen : { -1, 31, 65 }) {
+            render::Settings chooses = with(Shadows::Ratio, chosen == 65 ? 100 : 30);
+            chooses.environment.shadows.chosen = chosen;
+            CHECK_THROWS_AS(renderer.render(chooses), UsageError);
+        }
+        for (const int side : { 0, 3, 8, 64 }) {
+            render::Settings few = with(Shadows::Ratio);
+            few.environment.shadows.blockSide = side;
+            CHECK_THROWS_AS(renderer.render(few), UsageError);
+        }
         for (const int lights : { 0, -1, 4097 })
             CHECK_THROWS_AS(renderer.render(with(Shadows::Ratio, lights)), UsageError);
         CHECK_THROWS_AS(renderer.render(with(Shadows::Ratio, 2049)), UsageError); // 64 x 32 places

@@ -7,6 +7,7 @@
 #include "tests/environment_support.h"
 #include "tests/pass_bench.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -34,7 +35,7 @@ inline scene::Scene under(scene::SpecularModel model, float exponent)
 inline render::Settings settings(render::Shadows shadows, render::WholeLight whole = render::WholeLight::Prefiltered)
 {
     render::Settings s = sized(render::monteCarlo(4), width, height);
-    s.environment.shadows = { shadows, static_cast<int>(count), whole, true };
+    s.environment.shadows = { shadows, static_cast<int>(count), whole, true, 0, 1 };
     return s;
 }
 
@@ -60,15 +61,25 @@ inline double lobe(shared::Gloss gloss, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l
     return (m + 2) * (m + 4) / (8 * pi * (std::exp2(-0.5 * m) + m)) * std::pow(std::max(c, 0.0), m);
 }
 
+/// As wide at least as the lights are apart.
+inline shared::Gloss widened(shared::Gloss gloss)
+{
+    const float spacing = static_cast<float>(count / (4 * std::numbers::pi));
+    gloss.exponent = std::min(gloss.exponent, gloss.kind == WEDGE_PHONG ? spacing : 4 * spacing);
+    return gloss;
+}
+
 /// A pass after its primary rays, with the lights of the scene's map.
 struct Traced {
-    Traced(DeclaredFrame& frame, const std::vector<render::MapLight>& lights)
+    Traced(
+        DeclaredFrame& frame, const std::vector<render::MapLight>& lights, const std::string& kernel = "shadowLights")
         : primary(frame, "primary")
-        , pass(frame, "shadowLights")
+        , pass(frame, kernel)
     {
         primary.run();
-        for (const char* name : { "position", "normal", "origin" })
-            pass.plane(name, primary.read<float>(name));
+        for (const char* name : { "position", "normal", "origin", "diffuse", "specular" })
+            if (pass.has(name))
+                pass.plane(name, primary.read<float>(name));
         for (const char* name : { "geometric", "objectId", "gloss" })
             pass.plane(name, primary.read<std::uint32_t>(name));
         pass.plane("lights", listOf(lights));
@@ -76,6 +87,11 @@ struct Traced {
     void upTo(std::uint32_t last)
     {
         pass.value("lastSample", last);
+        pass.run();
+    }
+    void all()
+    {
+        pass.value("count", count);
         pass.run();
     }
     PassBench primary, pass;

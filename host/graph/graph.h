@@ -339,6 +339,8 @@ public:
     Window image() const { return image_; }
     /// All pixels of a scale.
     Window image(Scale scale) const;
+    /// How planes of a scale lie; of Full as the frame's have to, for what asks.
+    PlaneLayout layout(Scale scale) const;
     /// The pixels of scale `to` that lie over those of a window, in part or whole.
     Window converted(const Window& window, Scale from, Scale to) const;
     /// Whether a loop is that loop or inside it; -1 is outside of all, and so holds all.
@@ -346,7 +348,6 @@ public:
 
 private:
     Version declare(Resource resource);
-    PlaneLayout layout(Scale scale) const;
     std::uint64_t planeElements(Scale scale) const;
     void enter(Loop loop);
     void leave();

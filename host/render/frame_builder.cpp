@@ -194,10 +194,12 @@ void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step,
 
 void FrameBuilder::host(const char* name, graph::Argument use, const std::function<void(Run&)>& step)
 {
+    const graph::Scale scale = graph.resources()[use.version.resource].scale;
     graph.add({ .name = name,
         .kind = PassKind::Transfer,
         .arguments = { std::move(use) },
         .domain = graph::Domain::Host,
+        .scale = scale,
         .step = step,
         .constant = true });
 }

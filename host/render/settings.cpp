@@ -111,6 +111,12 @@ void validateShadows(const Settings& s, bool distributed)
     const ShadowSettings& shadows = s.environment.shadows;
     requireRange(shadows.lights >= 1 && shadows.lights <= mostShadowLights, "lights for the environment's shadows",
         fmt::format("{}", shadows.lights), fmt::format("a whole number from 1 to {}", mostShadowLights));
+    requireRange(shadows.chosen >= 0 && shadows.chosen <= std::min(shadows.lights, mostChosenLights),
+        "lights that a pixel traces rays to", fmt::format("{}", shadows.chosen),
+        fmt::format("a whole number up to {}, and not more than lights", mostChosenLights));
+    const int side = shadows.blockSide;
+    requireRange(side == 1 || side == 2 || side == 4 || side == 32, "pixels along a side of those of which one traces",
+        fmt::format("{}", side), "1, 2, 4 or 32");
     if (shadows.shadows != Shadows::Sampled && distributed) {
         throw UsageError("shadows of lights are of frames through a pinhole where nothing moves, neither antialiased "
                          "nor progressive",

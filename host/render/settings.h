@@ -161,6 +161,8 @@ struct ShadowSettings {
     int lights = 40;
     WholeLight whole = WholeLight::Map;
     bool clamp = true; ///< of Subtractive: no light is below 0
+    int chosen = 0; ///< lights that a pixel traces rays to, those that bring it most; 0: all
+    int blockSide = 1; ///< pixels along each side of the blocks of which one traces rays, a power of 2 up to 32
 
     bool operator==(const ShadowSettings&) const = default;
 };
@@ -335,8 +337,9 @@ constexpr int mostDistributedSpp = 2048;
 /// Most samples of one pixel of them: where many of a tile want so many, they take less.
 constexpr int mostPixelSpp = 16384;
 
-/// Most lights that a map is taken for.
+/// Most lights that a map is taken for, and most that a pixel chooses among them.
 constexpr int mostShadowLights = 4096;
+constexpr int mostChosenLights = 64;
 
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;
@@ -348,6 +351,11 @@ int leastSpp(const Settings& settings, bool distributed);
 
 /// "ratio" and the like.
 std::string shadowsName(Shadows shadows);
+
+/// "100:8": lights and how many of them a pixel traces rays to; "100": to all.
+std::string shadowLightsText(const ShadowSettings& settings);
+/// "1/4": the share of pixels that trace rays; "1": all.
+std::string shadowScaleText(const ShadowSettings& settings);
 
 /// Throws UsageError if a value is out of its range. distributed: as above.
 void validate(const Settings& settings, bool distributed);

@@ -74,7 +74,10 @@ void describeShadows(const ShadowSettings& s, Descriptions& out)
         return;
     }
     out.emplace_back("shadows", shadowsName(s.shadows));
-    out.emplace_back("shadowLights", fmt::format("{}", s.lights));
+    out.emplace_back("shadowLights", shadowLightsText(s));
+    if (s.blockSide > 1) {
+        out.emplace_back("shadowScale", shadowScaleText(s));
+    }
     if (s.shadows != Shadows::Additive) {
         constexpr const char* names[] = { "map", "prefiltered", "lights" };
         out.emplace_back("shadowComplete", names[static_cast<int>(s.whole)]);
@@ -90,6 +93,16 @@ std::string shadowsName(Shadows shadows)
 {
     constexpr const char* names[] = { "sampled", "additive", "subtractive", "ratio" };
     return names[static_cast<int>(shadows)];
+}
+
+std::string shadowLightsText(const ShadowSettings& s)
+{
+    return s.chosen > 0 ? fmt::format("{}:{}", s.lights, s.chosen) : fmt::format("{}", s.lights);
+}
+
+std::string shadowScaleText(const ShadowSettings& s)
+{
+    return s.blockSide > 1 ? fmt::format("1/{}", s.blockSide * s.blockSide) : "1";
 }
 
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }

@@ -198,6 +198,11 @@ WEDGE_INLINE Vec3 lanePosition(const ReceiverPacket* r, uint lane)
     return vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
 }
 
+WEDGE_INLINE Vec3 laneNormal(const ReceiverPacket* r, uint lane)
+{
+    return vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+}
+
 /// How far a lane's shadow rays start from the point that is shaded.
 WEDGE_INLINE Vec3 laneLift(const ReceiverPacket* r, uint lane)
 {

@@ -35,18 +35,23 @@ WEDGE_FN void lobesOf(const ReceiverPacket* r, float widest, LobeLanes* lobes)
     }
 }
 
+/// What a lane's lobe reflects of a light into its view, 1/sr.
+WEDGE_INLINE float lobeOfLane(const ReceiverPacket* r, const LobeLanes* lobes, Vec3 towards, uint lane)
+{
+    Lobe lobe;
+    lobe.exponent = lobes->exponent[lane];
+    lobe.normalization = lobes->normalization[lane];
+    lobe.leastCosine = lobes->leastCosine[lane];
+    lobe.kind = lobes->kind[lane];
+    return lobeValue(lobe, laneNormal(r, lane), laneView(r, lane), towards);
+}
+
 /// What each lane's lobe reflects of a light's irradiance over its specular reflectance.
 WEDGE_FN void lobeWeights(
     const ReceiverPacket* r, const LobeLanes* lobes, Vec3 towards, const float* cosine, float* weight)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        Lobe lobe;
-        lobe.exponent = lobes->exponent[lane];
-        lobe.normalization = lobes->normalization[lane];
-        lobe.leastCosine = lobes->leastCosine[lane];
-        lobe.kind = lobes->kind[lane];
-        const float value = lobeValue(lobe, n, laneView(r, lane), towards);
+        const float value = lobeOfLane(r, lobes, towards, lane);
         weight[lane] = cosine[lane] > 0.0f ? value * cosine[lane] : 0.0f;
     }
 }

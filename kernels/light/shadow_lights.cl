@@ -1,51 +1,36 @@
-// Direct light from beyond the scene by directional lights that stand for its map, a shadow ray each: what they bring
-// with shadows and without, and what that makes of the map's whole light. Both are kept without reflectances, so that
-// textures are none of their business.
-#include "light/light_packet.h"
-#include "light/light_tree.h"
-#include "light/unshadowed_environment.h"
-#include "shared/filter_params.h"
+// Direct light from beyond the scene by directional lights that stand for its map: what they bring with shadows and
+// without. Both are kept without reflectances, so that textures are none of their business.
+#include "light/lit_lanes.h"
 #include "shared/shadow_lights.h"
 #include "trace/packet.h"
 
-/// What lights bring to each lane: R G B where nothing hides them, and of all.
-typedef struct {
-    float shadowed[3][WEDGE_PACKET_SIZE], unshadowed[3][WEDGE_PACKET_SIZE];
-} LitLanes;
-
-/// Six planes, from `first` on: shadowed R G B, unshadowed R G B. Lanes without a pixel begin with 0.
-WEDGE_FN void loadLit(__global const float* planes, uint size, uint first, const uint* pixel, LitLanes* lit)
+/// The receivers that have not taken the lights up to lastSample, and where the first of them goes on; those that have
+/// lose their pixel.
+WEDGE_FN uint openReceivers(ReceiverPacket* r, __global const uint* taken, uint lastSample)
 {
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const bool has = pixel[lane] != WEDGE_NO_PIXEL;
-            lit->shadowed[channel][lane] = has ? planes[(first + channel) * size + pixel[lane]] : 0.0f;
-            lit->unshadowed[channel][lane] = has ? planes[(first + channel + 3u) * size + pixel[lane]] : 0.0f;
-        }
+    uint next = lastSample;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = r->pixel[lane];
+        const uint done = i != WEDGE_NO_PIXEL ? taken[i] : lastSample;
+        const bool open = done < lastSample;
+        next = min(next, done); // all that are open have taken as many
+        r->pixel[lane] = open ? i : WEDGE_NO_PIXEL;
+        r->normalX[lane] = open ? r->normalX[lane] : 0.0f;
+        r->normalY[lane] = open ? r->normalY[lane] : 0.0f;
+        r->normalZ[lane] = open ? r->normalZ[lane] : 0.0f;
     }
+    return next;
 }
 
-WEDGE_FN void storeLit(__global float* planes, uint size, uint first, const uint* pixel, const LitLanes* lit)
+/// Counts rays, and what they were traced to.
+WEDGE_FN void finishReceivers(
+    const ReceiverPacket* r, const uint* traced, uint lights, __global uint* rays, __global uint* taken)
 {
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            if (pixel[lane] != WEDGE_NO_PIXEL) {
-                planes[(first + channel) * size + pixel[lane]] = lit->shadowed[channel][lane];
-                planes[(first + channel + 3u) * size + pixel[lane]] = lit->unshadowed[channel][lane];
-            }
-        }
-    }
-}
-
-/// Adds a light. weight: of what reaches each lane, 1/sr; 0 behind it
-WEDGE_FN void addLight(Vec3 irradiance, const float* weight, const uint* occluded, LitLanes* lit)
-{
-    const float colour[3] = { irradiance.x, irradiance.y, irradiance.z };
-    for (uint channel = 0u; channel < 3u; ++channel) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const float all = colour[channel] * weight[lane];
-            lit->unshadowed[channel][lane] += all;
-            lit->shadowed[channel][lane] += occluded[lane] != 0u ? 0.0f : all;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = r->pixel[lane];
+        if (i != WEDGE_NO_PIXEL) {
+            rays[i] += traced[lane];
+            taken[i] = lights;
         }
     }
 }
@@ -69,8 +54,9 @@ WEDGE_FN void traceLight(__global const TraversalNode* restrict nodes, __global 
 ///
 /// in      frame, BVH, receivers; lights: WEDGE_SHADOW_LIGHT_FLOATS each; widest: the exponent of the
 ///         Phong lobe that wider lobes are at least as wide as, or 0: there are none
-/// in out  taken: lights; mattSums (6 planes: shadowed, unshadowed), over the diffuse reflectance; lobeSums (6, and 6
-///         more of wider lobes), over the specular one; rays
+/// in out  taken: lights, as many in all pixels that have not taken lastSample; mattSums (6 planes: shadowed,
+///         unshadowed), over the diffuse reflectance; lobeSums (6, and 6 more of wider lobes), over the specular one;
+///         rays
 #include "pass/shadowLights.h"
 #ifdef PASS_shadowLights
 __kernel void shadowLights(PARAMETERS)
@@ -78,224 +64,229 @@ __kernel void shadowLights(PARAMETERS)
     ReceiverPacket receivers;
     const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
     loadReceivers(frame, 0u, firstGroup, data, &receivers);
-    uint traced[WEDGE_PACKET_SIZE], next = lastSample;
+    const uint next = openReceivers(&receivers, taken, lastSample);
+    uint traced[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
         traced[lane] = 0u;
-        next = i != WEDGE_NO_PIXEL ? min(next, taken[i]) : next; // all have taken as many
     }
     LitLanes matt;
     loadLit(mattSums, frame.planeSize, 0u, receivers.pixel, &matt);
 #ifdef WEDGE_SPECULAR
-    LitLanes own, wide;
-    LobeLanes ownLobes, wideLobes;
-    lobesOf(&receivers, 0.0f, &ownLobes);
-    loadLit(lobeSums, frame.planeSize, 0u, receivers.pixel, &own);
-    if (widest > 0.0f) {
-        lobesOf(&receivers, widest, &wideLobes);
-        loadLit(lobeSums, frame.planeSize, 6u, receivers.pixel, &wide);
-    }
+    LobeSums lobes;
+    beginLobes(&receivers, widest, &lobes);
+    loadLobes(lobeSums, frame.planeSize, receivers.pixel, &lobes);
 #endif
     for (uint k = next; k < lastSample; ++k) {
-        __global const float* light = lights + WEDGE_SHADOW_LIGHT_FLOATS * k;
-        const Vec3 towards = vec3(light[0], light[1], light[2]), irradiance = vec3(light[3], light[4], light[5]);
-        if (!(fmax(irradiance.x, fmax(irradiance.y, irradiance.z)) > 0.0f)) {
+        const ShadowLight light = shadowLight(lights, k);
+        if (!(fmax(light.irradiance.x, fmax(light.irradiance.y, light.irradiance.z)) > 0.0f)) {
             continue; // of a black part of the map
         }
         float cosine[WEDGE_PACKET_SIZE], weight[WEDGE_PACKET_SIZE];
         uint occluded[WEDGE_PACKET_SIZE];
-        traceLight(nodes, blocks, &receivers, towards, cosine, traced, occluded);
+        traceLight(nodes, blocks, &receivers, light.towards, cosine, traced, occluded);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             weight[lane] = WEDGE_INV_PI * fmax(cosine[lane], 0.0f);
         }
-        addLight(irradiance, weight, occluded, &matt);
+        addLight(light.irradiance, weight, occluded, &matt);
 #ifdef WEDGE_SPECULAR
-        lobeWeights(&receivers, &ownLobes, towards, cosine, weight);
-        addLight(irradiance, weight, occluded, &own);
-        if (widest > 0.0f) {
-            lobeWeights(&receivers, &wideLobes, towards, cosine, weight);
-            addLight(irradiance, weight, occluded, &wide);
-        }
+        addToLobes(&receivers, light, cosine, occluded, &lobes, weight);
 #endif
     }
     storeLit(mattSums, frame.planeSize, 0u, receivers.pixel, &matt);
 #ifdef WEDGE_SPECULAR
-    storeLit(lobeSums, frame.planeSize, 0u, receivers.pixel, &own);
-    if (widest > 0.0f) {
-        storeLit(lobeSums, frame.planeSize, 6u, receivers.pixel, &wide);
-    }
+    storeLobes(lobeSums, frame.planeSize, receivers.pixel, &lobes);
 #else
     (void)widest;
 #endif
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
-        if (i != WEDGE_NO_PIXEL) {
-            rays[i] += traced[lane];
-            taken[i] = lastSample;
-        }
-    }
+    finishReceivers(&receivers, traced, lastSample, rays, taken);
 }
 #endif
 
-/// Levels of the map's averages: chosen under two probes, where 512 directions of a lobe show which they are.
-#define WEDGE_WHOLE_COARSER 1.5f
+/// The lights that bring most to each lane, the most first.
+typedef struct {
+    float gain[WEDGE_MOST_CHOSEN][WEDGE_PACKET_SIZE]; ///< 0: there are no more
+    uint light[WEDGE_MOST_CHOSEN][WEDGE_PACKET_SIZE];
+} ChosenLanes;
 
-/// What lobes reflect of the map if nothing hides it, over their specular reflectance.
-/// in      rings: of unshadowedLobe(); specular: 3 planes; the map, receivers
-/// in out  whole: 3 planes, set where something is reflected
-#include "pass/wholeLobes.h"
-#ifdef PASS_wholeLobes
-__kernel void wholeLobes(PARAMETERS)
+WEDGE_FN void clearChosen(uint most, ChosenLanes* chosen)
 {
-    ReceiverPacket receivers;
-    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
-    loadReceivers(frame, 0u, firstGroup, data, &receivers);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
-        if (i != WEDGE_NO_PIXEL && luminance(loadVec(specular, frame.planeSize, i)) > 0.0f) {
-            const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
-            const Vec3 v = laneView(&receivers, lane);
-            storeVec(whole, frame.planeSize, i,
-                unshadowedLobe(
-                    environment[0], environmentTable, n, v, unpackGloss(gloss[i]), rings, WEDGE_WHOLE_COARSER));
+    for (uint k = 0u; k < most; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            chosen->gain[k][lane] = 0.0f;
+            chosen->light[k][lane] = 0u;
         }
     }
 }
-#endif
 
-/// What surfaces reflect of all of the map if nothing hides it, over their reflectances.
-/// in      tree: `parts` of the map, see light_tree.h; least: see lobeLight(); specular: 3 planes; receivers
-/// in out  wholeMatt, whole (of lobes): 3 planes each, set where there is a surface
-#include "pass/wholeLight.h"
-#ifdef PASS_wholeLight
-__kernel void wholeLight(PARAMETERS)
+/// Of `most` lights a lane those that bring more than others, and of equal ones the first. gain: of this light
+WEDGE_FN void chooseLight(uint most, const float* gain, uint light, ChosenLanes* chosen)
 {
-    ReceiverPacket receivers;
-    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
-    loadReceivers(frame, 0u, firstGroup, data, &receivers);
-    uint shaded[WEDGE_PACKET_SIZE];
+    uint any = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        shaded[lane] = receivers.pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
+        any |= gain[lane] > chosen->gain[most - 1u][lane] ? 1u : 0u;
     }
-    MapLanes sum;
-    clearLanes(&sum);
-    mattLight(tree, parts, &receivers, shaded, &sum);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
-        if (i != WEDGE_NO_PIXEL) {
-            storeVec(wholeMatt, frame.planeSize, i, vecScale(lightOf(&sum, lane), WEDGE_INV_PI));
-        }
-    }
-#ifdef WEDGE_SPECULAR
-    uint reflects[WEDGE_PACKET_SIZE];
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
-        reflects[lane] = i != WEDGE_NO_PIXEL && luminance(loadVec(specular, frame.planeSize, i)) > 0.0f ? 1u : 0u;
-    }
-    clearLanes(&sum);
-    lobeLight(tree, parts, &receivers, reflects, least, &sum);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = receivers.pixel[lane];
-        if (i != WEDGE_NO_PIXEL) {
-            storeVec(whole, frame.planeSize, i, lightOf(&sum, lane));
-        }
-    }
-#else
-    (void)least;
-    (void)specular;
-#endif
-}
-#endif
-
-/// Below it the share of what is hidden is not known of what lights bring: where there are none, nothing is.
-#define WEDGE_LEAST_LIT 1e-30f
-
-/// A channel of the map's whole light with the shadows of the lights: less what they lose, or times the share that is
-/// left of them; or what they bring alone. unlit: what counts of the whole light where no light is that hides.
-WEDGE_INLINE float withShadows(uint shadows, float complete, float shadowed, float unshadowed, float wideShadowed,
-    float wideUnshadowed, float unlit)
-{
-    const float all = unshadowed + wideUnshadowed;
-    const bool reached = all > WEDGE_LEAST_LIT;
-    const float known = reached ? complete : unlit * complete;
-    const float share = reached ? (shadowed + wideShadowed) / all : 1.0f;
-    const float less = known - (unshadowed - shadowed);
-    const float kept = shadows == WEDGE_SHADOWS_SUBTRACTIVE ? less : known * share;
-    return shadows == WEDGE_SHADOWS_ADDITIVE ? shadowed : kept;
-}
-
-/// The same of all channels. sums: six planes of own lobes, and behind them, if widened, six of wider ones.
-WEDGE_FN Vec3 allWithShadows(
-    uint shadows, Vec3 complete, __global const float* sums, uint size, uint i, bool widened, float unlit)
-{
-    const Vec3 shadowed = loadVec(sums, size, i), unshadowed = loadVec(sums + 3u * size, size, i);
-    const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
-    const Vec3 a = widened ? loadVec(sums + 6u * size, size, i) : none;
-    const Vec3 u = widened ? loadVec(sums + 9u * size, size, i) : none;
-    return vec3(withShadows(shadows, complete.x, shadowed.x, unshadowed.x, a.x, u.x, unlit),
-        withShadows(shadows, complete.y, shadowed.y, unshadowed.y, a.y, u.y, unlit),
-        withShadows(shadows, complete.z, shadowed.z, unshadowed.z, a.z, u.z, unlit));
-}
-
-/// v, none of whose channels is below 0 if they are to be clamped; `below` then says whether one was.
-WEDGE_INLINE Vec3 clampedLight(Vec3 v, uint clamps, bool* below)
-{
-    const bool any = clamps != 0u && fmin(v.x, fmin(v.y, v.z)) < 0.0f;
-    *below = *below || any;
-    const Vec3 least = vec3(fmax(v.x, 0.0f), fmax(v.y, 0.0f), fmax(v.z, 0.0f));
-    return vecChoose(any, least, v);
-}
-
-/// What surfaces reflect of the map's light.
-///
-/// in      shadows: WEDGE_SHADOWS_*; complete: WEDGE_COMPLETE_*, the map's whole light: of all lights, of
-///         `whole` (3 planes, of lobes) and what harmonics say, or of `wholeMatt` (3 planes) and `whole`;
-///         clamps: 1: it is not below 0; wide: 1: lobeSums have wider lobes; mostRed, mostGreen, mostBlue: what
-///         unshadowedLight() is a part of, W/m^2; the map, the G-buffer, sums
-/// in out  lit (3 planes, radiance)
-/// out     clamped: 1 in pixels where something was
-#include "pass/combineShadowLights.h"
-#ifdef PASS_combineShadowLights
-__kernel void combineShadowLights(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    clamped[i] = 0u;
-    if (taken[i] == 0u) {
+    if (any == 0u) {
         return;
     }
-    const uint size = p.planeSize;
-    const Vec3 n = loadVec(normal, size, i);
-    bool below = false;
-    Vec3 matt = loadVec(mattSums + 3u * size, size, i);
-#if HAS_wholeMatt
-    matt = vecChoose(complete == WEDGE_COMPLETE_MAP, loadVec(wholeMatt, size, i), matt);
-#endif
-    if (complete == WEDGE_COMPLETE_PREFILTERED) {
-        const Vec3x16 light = unshadowedFrom(environment, environmentTable, splat3(n), 0.0f);
-        const Vec3 most = vecScale(vec3(mostRed, mostGreen, mostBlue), WEDGE_INV_PI);
-        matt = vecMul(most, vec3(light.x.s0, light.y.s0, light.z.s0));
+    float next[WEDGE_PACKET_SIZE];
+    uint number[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        next[lane] = gain[lane];
+        number[lane] = light;
     }
-    // Harmonics bring light from where there is none.
-    const float unlit = complete == WEDGE_COMPLETE_PREFILTERED ? 0.0f : 1.0f;
-    matt = clampedLight(allWithShadows(shadows, matt, mattSums, size, i, false, unlit), clamps, &below);
-    const Vec3 k = loadVec(diffuse, size, i);
-    Vec3 sum = vecMul(matt, k);
-    below = below && luminance(k) > 0.0f;
+    for (uint k = 0u; k < most; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const float held = chosen->gain[k][lane], given = next[lane];
+            const uint heldLight = chosen->light[k][lane], givenLight = number[lane];
+            const bool more = given > held;
+            chosen->gain[k][lane] = more ? given : held;
+            chosen->light[k][lane] = more ? givenLight : heldLight;
+            next[lane] = more ? held : given;
+            number[lane] = more ? heldLight : givenLight;
+        }
+    }
+}
+
+/// Rays to each lane's own light; those without one trace none.
+WEDGE_FN void traceChosen(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    const ReceiverPacket* r, __global const float* lights, const float* gain, const uint* number, uint* traced,
+    uint* occluded)
+{
+    RayPacket packet;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool any = gain[lane] > 0.0f;
+        const Vec3 towards = shadowLight(lights, any ? number[lane] : 0u).towards;
+        setRay(&packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), towards, 0.0f,
+            any ? INFINITY : 0.0f);
+        setTime(&packet, lane, receiverTime(r, lane));
+        traced[lane] += any ? 1u : 0u;
+    }
+    anyHits(nodes, blocks, &packet, occluded);
+}
+
+/// Adds a light to a lane. weight: of what reaches it
+WEDGE_INLINE void addToLane(Vec3 irradiance, float weight, bool hidden, uint lane, LitLanes* lit)
+{
+    const Vec3 all = vecScale(irradiance, weight);
+    lit->unshadowed[0][lane] += all.x;
+    lit->unshadowed[1][lane] += all.y;
+    lit->unshadowed[2][lane] += all.z;
+    lit->shadowed[0][lane] += hidden ? 0.0f : all.x;
+    lit->shadowed[1][lane] += hidden ? 0.0f : all.y;
+    lit->shadowed[2][lane] += hidden ? 0.0f : all.z;
+}
+
+/// Of all light what is left where a part of it is known: the rest is hidden by as much, as far as that part is most of
+/// it, and else seen.
+WEDGE_FN void shadowAsPart(const LitLanes* part, LitLanes* all)
+{
+    for (uint channel = 0u; channel < 3u; ++channel) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const float of = part->unshadowed[channel][lane], left = part->shadowed[channel][lane];
+            const float whole = all->unshadowed[channel][lane];
+            const float hidden = of > 0.0f ? (of - left) / of : 0.0f, known = of < whole ? of / whole : 1.0f;
+            const float some = left + (1.0f - known * hidden) * fmax(whole - of, 0.0f);
+            all->shadowed[channel][lane] = left < of ? fmin(some, whole) : whole;
+        }
+    }
+}
+
 #ifdef WEDGE_SPECULAR
-    const Vec3 reflectance = loadVec(specular, size, i);
-    if (luminance(reflectance) > 0.0f) {
-        Vec3 lobe = loadVec(lobeSums + 3u * size, size, i);
-#if HAS_whole
-        lobe = vecChoose(complete != WEDGE_COMPLETE_LIGHTS, loadVec(whole, size, i), lobe);
-#endif
-        lobe = clampedLight(allWithShadows(shadows, lobe, lobeSums, size, i, wide != 0u, 1.0f), clamps, &below);
-        sum = vecAdd(sum, vecMul(lobe, reflectance));
+WEDGE_INLINE void addToLaneOfLobes(
+    const ReceiverPacket* r, ShadowLight light, float cosine, bool hidden, uint lane, LobeSums* lobes)
+{
+    if (cosine > 0.0f) {
+        const float own = lobeOfLane(r, &lobes->ownLobes, light.towards, lane);
+        const float wide = lobeOfLane(r, &lobes->wideLobes, light.towards, lane);
+        addToLane(light.irradiance, cosine * own, hidden, lane, &lobes->own);
+        addToLane(light.irradiance, cosine * wide, hidden, lane, &lobes->wide);
     }
-#else
-    (void)specular;
-    (void)wide;
+}
 #endif
-    clamped[i] = below ? 1u : 0u;
-    storeVec(lit, size, i, vecAdd(loadVec(lit, size, i), sum));
+
+/// By how much a receiver reflects light of each kind: luminances of a plane; 0 in lanes without a pixel.
+WEDGE_FN void loadLuminances(__global const float* reflectance, uint size, const uint* pixel, float* out)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool has = pixel[lane] != WEDGE_NO_PIXEL;
+        out[lane] = has ? luminance(loadVec(reflectance, size, pixel[lane])) : 0.0f;
+    }
+}
+
+/// All lights, of which each pixel traces rays to the `most` that bring it most, see shadowAsPart().
+///
+/// in      as of shadowLights; count: of lights; most: 1 to WEDGE_MOST_CHOSEN; diffuse, specular: 3 planes of
+///         reflectances each
+/// in out  taken: count, where it was less; mattSums, lobeSums: written there, as of shadowLights; rays
+#include "pass/chosenLights.h"
+#ifdef PASS_chosenLights
+__kernel void chosenLights(PARAMETERS)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    openReceivers(&receivers, taken, count);
+    const uint size = frame.planeSize;
+    ChosenLanes chosen;
+    clearChosen(most, &chosen);
+    float ofDiffuse[WEDGE_PACKET_SIZE];
+    loadLuminances(diffuse, size, receivers.pixel, ofDiffuse);
+    LitLanes matt, part;
+    clearLit(&matt);
+    clearLit(&part);
+#ifdef WEDGE_SPECULAR
+    float ofSpecular[WEDGE_PACKET_SIZE];
+    loadLuminances(specular, size, receivers.pixel, ofSpecular);
+    LobeSums lobes, lobesPart;
+    beginLobes(&receivers, widest, &lobes);
+    lobesPart = lobes;
+#endif
+    uint occluded[WEDGE_PACKET_SIZE], traced[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        occluded[lane] = traced[lane] = 0u;
+    }
+    for (uint k = 0u; k < count; ++k) {
+        const ShadowLight light = shadowLight(lights, k);
+        const float bright = luminance(light.irradiance);
+        float cosine[WEDGE_PACKET_SIZE], weight[WEDGE_PACKET_SIZE], gain[WEDGE_PACKET_SIZE];
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            cosine[lane] = vecDot(laneNormal(&receivers, lane), light.towards);
+            weight[lane] = WEDGE_INV_PI * fmax(cosine[lane], 0.0f);
+            gain[lane] = bright * ofDiffuse[lane] * weight[lane];
+        }
+        addLight(light.irradiance, weight, occluded, &matt);
+#ifdef WEDGE_SPECULAR
+        addToLobes(&receivers, light, cosine, occluded, &lobes, weight);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            gain[lane] += bright * ofSpecular[lane] * weight[lane];
+        }
+#endif
+        chooseLight(most, gain, k, &chosen);
+    }
+    for (uint k = 0u; k < most; ++k) {
+        traceChosen(nodes, blocks, &receivers, lights, chosen.gain[k], chosen.light[k], traced, occluded);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const bool any = chosen.gain[k][lane] > 0.0f, hidden = occluded[lane] != 0u;
+            const ShadowLight light = shadowLight(lights, any ? chosen.light[k][lane] : 0u);
+            const float cosine = any ? vecDot(laneNormal(&receivers, lane), light.towards) : 0.0f;
+            addToLane(light.irradiance, WEDGE_INV_PI * cosine, hidden, lane, &part);
+#ifdef WEDGE_SPECULAR
+            addToLaneOfLobes(&receivers, light, cosine, hidden, lane, &lobesPart);
+#endif
+        }
+    }
+    shadowAsPart(&part, &matt);
+#ifdef WEDGE_SPECULAR
+    shadowAsPart(&lobesPart.own, &lobes.own);
+    shadowAsPart(&lobesPart.wide, &lobes.wide);
+#endif
+    storeLit(mattSums, size, 0u, receivers.pixel, &matt);
+#ifdef WEDGE_SPECULAR
+    storeLobes(lobeSums, size, receivers.pixel, &lobes);
+#else
+    (void)widest;
+    (void)specular;
+#endif
+    finishReceivers(&receivers, traced, count, rays, taken);
 }
 #endif

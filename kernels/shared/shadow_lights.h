@@ -6,6 +6,9 @@
 /// it.
 #define WEDGE_SHADOW_LIGHT_FLOATS 6u
 
+/// Most lights that a pixel may choose to trace rays to.
+#define WEDGE_MOST_CHOSEN 64u
+
 /// Numbers of each part of the map's light (kernels/light/light_tree.h): irradiance, R G B, W/m^2; unit direction to
 /// the middle of the light; variance of its directions about it along either axis, radians squared; how many parts
 /// there are from this one to the last below it, itself included; the largest angle between the middle and what is in
