@@ -50,10 +50,25 @@ TEST_CASE("lights for an environment's shadows are told of in images and reports
     CHECK(told(lights, "shadowComplete") == "lights");
     CHECK(told(lights, "shadowClamp") == "on");
     CHECK(contains(readAll(place.path() / "r.json"), "\"clamped_pixels\": 0"));
+    const image::LayeredImage few =
+        render({ "--shadows", "ratio", "--shadow-lights", "30:4", "--shadow-scale", "1/16" });
+    CHECK(told(few, "shadowLights") == "30:4");
+    CHECK(told(few, "shadowScale") == "1/16");
+    CHECK(told(render({ "--shadows", "ratio", "--shadow-lights", "30:4", "--shadow-lights", "9" }), "shadowLights")
+        == "9");
     const image::LayeredImage open =
         render({ "--shadows", "additive", "--shadows", "subtractive", "--shadow-clamp", "off" });
     CHECK(told(open, "shadowClamp") == "off");
     CHECK_FALSE(contains(readAll(place.path() / "r.json"), "clamped_pixels"));
+    // By time: what is chosen is told, and gives the same picture by itself.
+    const image::LayeredImage soon = render({ "--shadows", "ratio", "--shadow-time", "0.0000001" });
+    CHECK(told(soon, "shadowLights") == "1");
+    CHECK(told(soon, "shadowScale") == "1/1024");
+    CHECK(render({ "--shadows", "additive", "--shadow-time", "0.0000001" }).metadata.count("method.shadowScale") == 0);
+    const image::LayeredImage same =
+        render({ "--shadows", "ratio", "--shadow-lights", "1", "--shadow-scale", "1/1024" });
+    CHECK(image::beauty(soon).rgb == image::beauty(same).rgb);
+    CHECK(told(render({ "--shadows", "ratio", "--shadow-time", "10000" }), "shadowLights") == "2048");
     // As if nothing had been asked for.
     render({ "--shadows", "ratio", "--shadows", "sampled" });
     CHECK_FALSE(report()["method"].contains("shadows"));
@@ -88,6 +103,29 @@ TEST_CASE("what lights for an environment's shadows cannot do is refused in a li
         none + "without --shadows: --shadow-lights 9: leave it out, or add --shadows ratio");
     refused({ "--shadows", "additive", "--shadow-complete", "lights" },
         none + "with --shadows additive: --shadow-complete lights: leave it out, or add --shadows ratio");
+    refused({ "--shadows", "ratio", "--shadow-lights", "40:0" },
+        "--shadow-lights N:K: 0: give a whole number from 1 to 40");
+    refused({ "--shadows", "ratio", "--shadow-lights", "40:41" },
+        "--shadow-lights N:K: 41: give a whole number from 1 to 40");
+    refused({ "--shadows", "ratio", "--shadow-lights", "200:65" },
+        "--shadow-lights N:K: 65: give a whole number from 1 to 64");
+    refused({ "--shadows", "ratio", "--shadow-lights", "40:" },
+        "--shadow-lights N:K: (empty): give a whole number from 1 to 40");
+    refused({ "--shadows", "ratio", "--shadow-scale", "1/8" }, "--shadow-scale: 1/8: choose 1, 1/4, 1/16, 1/1024");
+    refused(
+        { "--shadows", "ratio", "--shadow-time", "0" }, "--shadow-time: 0: give a number above 0 and at most 1000000");
+    refused(
+        { "--shadow-time", "1" }, none + "without --shadows: --shadow-time 1: leave it out, or add --shadows ratio");
+    refused({ "--shadows", "ratio", "--shadow-time", "1", "--shadow-lights", "9" },
+        none + "with --shadow-time 1: --shadow-lights 9: leave it out, or leave out --shadow-time");
+    refused({ "--shadows", "ratio", "--shadow-time", "1", "--shadow-scale", "1/4" },
+        none + "with --shadow-time 1: --shadow-scale 1/4: leave it out, or leave out --shadow-time");
+    refused({ "--shadow-scale", "1/4" },
+        none + "without --shadows: --shadow-scale 1/4: leave it out, or add --shadows ratio");
+    refused({ "--shadows", "additive", "--shadow-scale", "1/4" },
+        none + "with --shadows additive: --shadow-scale 1/4: leave it out, or add --shadows ratio");
+    refused({ "--shadows", "ratio", "--shadow-complete", "lights", "--shadow-scale", "1/4" },
+        none + "with --shadow-complete lights: --shadow-scale 1/4: leave it out, or choose another whole light");
     refused({ "--shadows", "ratio", "--shadow-clamp", "off" },
         none + "with --shadows ratio: --shadow-clamp off: leave it out, or add --shadows subtractive");
     refused({ "--shadows", "ratio", "--environment-widths", "curvature" },

@@ -9,6 +9,11 @@ namespace {
 
 // Upper bounds of what subtraction leaves of the error of lights alone, and of what dividing leaves of that.
 constexpr double additiveGoal = 0.55, meanAdditiveGoal = 0.4, meanRatioGoal = 0.6, energyGoal = 0.05;
+/// And of what a few lights a pixel have of the error of all, of lobes that are wider than lights are apart.
+constexpr double chosenGoal = 1.1;
+
+/// Lights among which pixels choose, where claims are of that.
+constexpr int chosenLights = 100;
 
 constexpr const char* program = "rendering_filters";
 
@@ -66,6 +71,13 @@ std::vector<Claim> claimsOf(const ShadowedScene& scene)
     }
     if (of.ratio != nullptr) {
         ratio.add("energy_error", std::abs(of.ratio->errors.energy), "1", {}, goalOf(scene, energyGoal));
+    }
+    const ShadowPoint *chosen = pointOf(scene.points, chosenWay, chosenLights),
+                      *all = pointOf(scene.points, ratioWay, chosenLights);
+    if (chosen != nullptr && all != nullptr) {
+        const bool wide = scene.source.name.ends_with("phong40");
+        ratio.add("error_of_8_a_pixel", errorRatio(*chosen, *all), "1", {},
+            wide ? goalOf(scene, chosenGoal) : std::optional<double>());
     }
     std::vector<Claim> out = std::move(subtractive.claims);
     out.insert(out.end(), ratio.claims.begin(), ratio.claims.end());

@@ -23,6 +23,31 @@ const std::vector<ShadowWay>& shadowWays()
                 s.clamp = false;
             } },
         { ratioWay, [](ShadowSettings& s) { s.shadows = Shadows::Ratio; } },
+        { "subtractive, 8 a pixel",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Subtractive;
+                s.chosen = 8;
+            } },
+        { chosenWay,
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Ratio;
+                s.chosen = 8;
+            } },
+        { "ratio, 1/4 of pixels",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Ratio;
+                s.blockSide = 2;
+            } },
+        { "ratio, 1/16 of pixels",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Ratio;
+                s.blockSide = 4;
+            } },
+        { "ratio, 1/1024 of pixels",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Ratio;
+                s.blockSide = 32;
+            } },
     };
     return all;
 }

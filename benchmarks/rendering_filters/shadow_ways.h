@@ -17,6 +17,7 @@ struct ShadowWay {
 inline constexpr const char* additiveWay = "additive";
 inline constexpr const char* subtractiveWay = "subtractive";
 inline constexpr const char* ratioWay = "ratio";
+inline constexpr const char* chosenWay = "ratio, 8 a pixel"; ///< by the lights that bring it most
 
 /// Those that are measured where nobody chooses: a row each.
 const std::vector<ShadowWay>& shadowWays();

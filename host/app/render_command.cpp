@@ -6,6 +6,7 @@
 #include "host/app/reference.h"
 #include "host/app/render_job.h"
 #include "host/app/render_settings.h"
+#include "host/app/shadow_settings.h"
 #include "host/device/device.h"
 #include "host/device/source.h"
 #include "host/error.h"
@@ -92,6 +93,10 @@ void RenderJob::checkCall() const
         if (given && !options_.explain.empty()) {
             throw UsageError("--explain renders nothing", name, "leave one of them out");
         }
+    }
+    if (options_.shadowSeconds && (options_.frames || !options_.explain.empty())) {
+        throw UsageError(
+            "lights are chosen by time for single images", "--shadow-time", "give --shadow-lights and --shadow-scale");
     }
     if (!options_.programs.empty() && options_.explain.empty()) {
         throw UsageError("programs are written of frames that are explained", "--programs", "add --explain FILE.svg");
@@ -249,6 +254,14 @@ void RenderJob::writePrograms() const
 
 void RenderJob::prepare()
 {
+    if (options_.shadowSeconds) {
+        progress_.show("choosing lights for --shadow-time");
+        const double expected = chooseShadows(*renderer_, *options_.shadowSeconds, settings_);
+        progress_.clear();
+        const render::ShadowSettings& chosen = settings_.environment.shadows;
+        tell("--shadow-lights {} --shadow-scale {}: about {:.3g} s\n", render::shadowLightsText(chosen),
+            render::shadowScaleText(chosen), expected);
+    }
     const device::DeviceInfo& device = renderer_->device().info();
     const device::MemoryPlan plan = renderer_->plan(settings_, keepsLayers());
     tell("scene {}: {} triangles\n", printable(scene().path), scene().geometry.indices.size() / 3);

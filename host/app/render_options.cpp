@@ -278,10 +278,29 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
         "that stand for it: what they bring, all of the map's light less what their shadows take, or times the share "
         "that these leave",
         o.shadows);
-    addValue(parser, howGroup, "--shadow-lights", "N", "With --shadows: how many lights. Default: 40",
+    addValue(parser, howGroup, "--shadow-lights", "N[:K]",
+        "With --shadows: how many lights, and to how many of them, those that bring it most, a pixel traces rays. "
+        "Default: 40, all of them",
         [&o](const std::string& text) {
-            o.shadowLights = static_cast<int>(wholeNumber("--shadow-lights", text, 1, render::mostShadowLights));
+            const std::size_t colon = text.find(':');
+            o.shadowLights =
+                static_cast<int>(wholeNumber("--shadow-lights", text.substr(0, colon), 1, render::mostShadowLights));
+            o.chosenLights.reset();
+            if (colon != std::string::npos) {
+                const int most = std::min(*o.shadowLights, render::mostChosenLights);
+                o.chosenLights = static_cast<int>(wholeNumber("--shadow-lights N:K", text.substr(colon + 1), 1, most));
+            }
         });
+    addValue(parser, howGroup, "--shadow-scale", "SHARE",
+        "With --shadows subtractive or ratio: the share of pixels that trace rays, 1, 1/4, 1/16 or 1/1024. Default: 1",
+        [&o](const std::string& text) {
+            constexpr int sides[] = { 1, 2, 4, 32 };
+            o.shadowBlockSide = sides[choice("--shadow-scale", text, { "1", "1/4", "1/16", "1/1024" })];
+        });
+    addValue(parser, howGroup, "--shadow-time", "SECONDS",
+        "With --shadows, in place of --shadow-lights and --shadow-scale: about how long a frame may take. Small frames "
+        "are rendered before it, and what is chosen by them is told",
+        [&o](const std::string& text) { o.shadowSeconds = positiveNumber("--shadow-time", text, 1e6); });
     addChoice(parser, howGroup, "--shadow-complete", wholeLights,
         "With --shadows subtractive or ratio, all of the map's light: by sums over parts of it, the default; by "
         "harmonics and means of it; or what the lights bring without shadows",

@@ -78,7 +78,10 @@ struct RenderOptions {
     std::optional<render::EnvironmentSampling> environmentSampling;
     std::optional<render::EnvironmentWidths> environmentWidths;
     std::optional<render::Shadows> shadows;
-    std::optional<int> shadowLights;
+    std::optional<int> shadowLights; ///< how many
+    std::optional<int> chosenLights; ///< of these, how many a pixel traces rays to
+    std::optional<int> shadowBlockSide; ///< pixels along a side of those of which one traces rays
+    std::optional<double> shadowSeconds; ///< that a frame may take: how many lights and pixels follow
     std::optional<render::WholeLight> shadowComplete;
     std::optional<bool> shadowClamp;
 };

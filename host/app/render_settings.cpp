@@ -1,10 +1,10 @@
 #include "host/app/render_settings.h"
 
 #include "effects/area_lights/maaf.h"
-#include "effects/shadow_lights/map_lights.h"
 #include "effects/styled_shadows/styled_lights.h"
 #include "filters/image/filter_section.h"
 #include "host/app/render_counts.h"
+#include "host/app/shadow_settings.h"
 #include "host/app/values.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
@@ -49,14 +49,6 @@ void refuseFilterOptions(const RenderOptions& o)
         if (isGiven) {
             throw UsageError("option has no effect with method mc", name, "leave it out, or choose --method aaf");
         }
-    }
-}
-
-/// An option, if it is given, as a mistake: for what it has no effect with, and how it would have one.
-void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy)
-{
-    if (given) {
-        throw UsageError("option has no effect " + with, option, "leave it out, or " + remedy);
     }
 }
 
@@ -133,58 +125,6 @@ render::Settings preset(const RenderOptions& o, const render::PreparedScene& sce
     return s;
 }
 
-/// The option that chooses lights for a map, as it was given.
-std::string shadowsOption(const RenderOptions& o)
-{
-    return "--shadows " + render::shadowsName(o.shadows.value_or(render::Shadows::Sampled));
-}
-
-/// Those that go with it.
-std::string shadowLights(const RenderOptions& o)
-{
-    return fmt::format("--shadow-lights {}", o.shadowLights.value_or(0));
-}
-
-std::string shadowComplete(const RenderOptions& o)
-{
-    return "--shadow-complete "
-        + wholeLights[static_cast<std::size_t>(o.shadowComplete.value_or(render::WholeLight::Map))];
-}
-
-std::string shadowClamp(const RenderOptions& o)
-{
-    return std::string("--shadow-clamp ") + (o.shadowClamp.value_or(true) ? "on" : "off");
-}
-
-/// One of these.
-std::string shadowOfThem(const RenderOptions& o)
-{
-    return o.shadowLights ? shadowLights(o) : o.shadowComplete ? shadowComplete(o) : shadowClamp(o);
-}
-
-/// Lights that stand for a map, and what goes with them alone.
-void applyShadows(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
-{
-    render::ShadowSettings& to = s.environment.shadows;
-    to.shadows = o.shadows.value_or(render::Shadows::Sampled);
-    const std::string option = shadowsOption(o);
-    const bool sampled = to.shadows == render::Shadows::Sampled;
-    refuse(!sampled && scene.picture() == nullptr, "without an environment", option, "add [environment] to the scene");
-    const std::string without = o.shadows ? "with " + option : "without --shadows";
-    refuse(sampled && o.shadowLights, without, shadowLights(o), "add --shadows ratio");
-    refuse(o.shadowComplete && (sampled || to.shadows == render::Shadows::Additive), without, shadowComplete(o),
-        "add --shadows ratio");
-    refuse(o.shadowClamp && to.shadows != render::Shadows::Subtractive, without, shadowClamp(o),
-        "add --shadows subtractive");
-    refuse(!sampled && o.environmentWidths, "with " + option, "--environment-widths", "leave out --shadows");
-    to.lights = o.shadowLights.value_or(to.lights);
-    to.whole = o.shadowComplete.value_or(to.whole);
-    to.clamp = o.shadowClamp.value_or(to.clamp);
-    if (!sampled) {
-        render::requirePlaces(*scene.picture(), static_cast<std::size_t>(to.lights));
-    }
-}
-
 void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
 {
     refuse(o.ambientDistance.has_value(), "with integrator path",
@@ -223,8 +163,7 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
     refuse(o.lightSampling.has_value(), "with integrator ao", "--light-sampling", remedy);
     refuse(o.environmentSampling.has_value(), "with integrator ao", "--environment-sampling", remedy);
     refuse(o.falloff.has_value(), "with integrator ao", "--falloff", remedy);
-    refuse(o.shadows.has_value(), "with integrator ao", shadowsOption(o), remedy);
-    refuse(o.shadowLights || o.shadowComplete || o.shadowClamp, "with integrator ao", shadowOfThem(o), remedy);
+    refuseShadows(o, "with integrator ao", remedy);
     s.indirect.ambientDistance = o.ambientDistance ? *o.ambientDistance : file.ambientDistance.value_or(0.0f);
 }
 

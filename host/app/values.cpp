@@ -113,4 +113,11 @@ std::size_t choice(const std::string& option, const std::string& text, const std
     return static_cast<std::size_t>(found - choices.begin());
 }
 
+void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy)
+{
+    if (given) {
+        throw UsageError("option has no effect " + with, option, "leave it out, or " + remedy);
+    }
+}
+
 } // namespace wedge::app

@@ -49,6 +49,10 @@ inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvat
 inline const std::vector<std::string> shadows = { "sampled", "additive", "subtractive", "ratio" };
 inline const std::vector<std::string> wholeLights = { "map", "prefiltered", "lights" };
 
+/// Throws UsageError of an option, if it is given, as a mistake: for what it has no effect with, and how it would have
+/// one.
+void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy);
+
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);
 
