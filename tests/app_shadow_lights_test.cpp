@@ -63,10 +63,9 @@ TEST_CASE("lights for an environment's shadows are told of in images and reports
     // By time: what is chosen is told, and gives the same picture by itself.
     const image::LayeredImage soon = render({ "--shadows", "ratio", "--shadow-time", "0.0000001" });
     CHECK(told(soon, "shadowLights") == "1");
-    CHECK(told(soon, "shadowScale") == "1/1024");
+    CHECK(told(soon, "shadowScale") == "1/16"); // the image has 384 pixels
     CHECK(render({ "--shadows", "additive", "--shadow-time", "0.0000001" }).metadata.count("method.shadowScale") == 0);
-    const image::LayeredImage same =
-        render({ "--shadows", "ratio", "--shadow-lights", "1", "--shadow-scale", "1/1024" });
+    const image::LayeredImage same = render({ "--shadows", "ratio", "--shadow-lights", "1", "--shadow-scale", "1/16" });
     CHECK(image::beauty(soon).rgb == image::beauty(same).rgb);
     CHECK(told(render({ "--shadows", "ratio", "--shadow-time", "10000" }), "shadowLights") == "2048");
     // As if nothing had been asked for.
@@ -120,6 +119,10 @@ TEST_CASE("what lights for an environment's shadows cannot do is refused in a li
         none + "with --shadow-time 1: --shadow-lights 9: leave it out, or leave out --shadow-time");
     refused({ "--shadows", "ratio", "--shadow-time", "1", "--shadow-scale", "1/4" },
         none + "with --shadow-time 1: --shadow-scale 1/4: leave it out, or leave out --shadow-time");
+    refused({ "--shadows", "ratio", "--shadow-scale", "1/1024" },
+        "scale of shadows leaves less than a pixel of the image: --shadow-scale 1/1024, 24x16: take a larger share or "
+        "a "
+        "larger image");
     refused({ "--shadow-scale", "1/4" },
         none + "without --shadows: --shadow-scale 1/4: leave it out, or add --shadows ratio");
     refused({ "--shadows", "additive", "--shadow-scale", "1/4" },

@@ -142,8 +142,8 @@ TEST_CASE("resampleShadows: weights add up to 1, and are those of spline, normal
                     REQUIRE(taken.at(x, y) == 0);
                     return;
                 }
-                const auto across = spline((x - side / 2) / double(side) - x / side),
-                           down = spline((y - side / 2) / double(side) - y / side);
+                const auto across = spline((x - grid.middle(x / side, width)) / double(side)),
+                           down = spline((y - grid.middle(y / side, height)) / double(side));
                 const glm::dvec3 at = position.vector(x, y), n = normal.vector(x, y);
                 double sum = 0, value = 0;
                 bool close = false; // to where planes or gloss part

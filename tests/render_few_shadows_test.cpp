@@ -107,6 +107,18 @@ TEST_CASE("the lights that bring most take the most of the light that is hidden"
     });
 }
 
+TEST_CASE("black things choose lights, too: what lies beside them goes by what they see")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene lit = things(spotted()), dark = lit;
+        dark.materials[0].diffuse = glm::vec3(0);
+        render::Renderer bright(lit, device, renderOptions()), black(dark, device, renderOptions());
+        const render::Settings s = few(Shadows::Ratio, 30, 5, 1);
+        CHECK(bright.render(s).shadowRays == black.render(s).shadowRays);
+        CHECK(black.render(s).shadowRays > 1000);
+    });
+}
+
 TEST_CASE("crops of few pixels and lights have the bits of the whole, whatever lay in the memory")
 {
     onEveryDevice([](const device::Device& device) {

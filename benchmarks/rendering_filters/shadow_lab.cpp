@@ -81,8 +81,10 @@ image::RgbImage ShadowLab::ofLights()
 ShadowLab::Setting ShadowLab::ofWay(const ShadowWay& way, int lights) const
 {
     Setting out { { .way = way.name, .count = lights }, sized(render::axisAligned(plan_.spp)) };
-    out.settings.environment.shadows.lights = lights;
-    way.set(out.settings.environment.shadows);
+    render::ShadowSettings& shadows = out.settings.environment.shadows;
+    shadows.lights = lights;
+    way.set(shadows);
+    shadows.chosen = std::min(shadows.chosen, lights);
     return out;
 }
 

@@ -256,11 +256,9 @@ void RenderJob::prepare()
 {
     if (options_.shadowSeconds) {
         progress_.show("choosing lights for --shadow-time");
-        const double expected = chooseShadows(*renderer_, *options_.shadowSeconds, settings_);
+        const std::string chosen = chooseShadows(*renderer_, *options_.shadowSeconds, settings_);
         progress_.clear();
-        const render::ShadowSettings& chosen = settings_.environment.shadows;
-        tell("--shadow-lights {} --shadow-scale {}: about {:.3g} s\n", render::shadowLightsText(chosen),
-            render::shadowScaleText(chosen), expected);
+        tell("{}\n", chosen);
     }
     const device::DeviceInfo& device = renderer_->device().info();
     const device::MemoryPlan plan = renderer_->plan(settings_, keepsLayers());

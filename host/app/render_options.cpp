@@ -1,5 +1,6 @@
 #include "host/app/render_options.h"
 
+#include "host/app/shadow_settings.h"
 #include "host/app/values.h"
 #include "host/render/filter_call.h"
 #include "host/render/layers.h"
@@ -294,8 +295,7 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
     addValue(parser, howGroup, "--shadow-scale", "SHARE",
         "With --shadows subtractive or ratio: the share of pixels that trace rays, 1, 1/4, 1/16 or 1/1024. Default: 1",
         [&o](const std::string& text) {
-            constexpr int sides[] = { 1, 2, 4, 32 };
-            o.shadowBlockSide = sides[choice("--shadow-scale", text, { "1", "1/4", "1/16", "1/1024" })];
+            o.shadowBlockSide = shadowBlockSides[choice("--shadow-scale", text, { "1", "1/4", "1/16", "1/1024" })];
         });
     addValue(parser, howGroup, "--shadow-time", "SECONDS",
         "With --shadows, in place of --shadow-lights and --shadow-scale: about how long a frame may take. Small frames "

@@ -1,6 +1,7 @@
 #include "host/app/shadow_settings.h"
 
 #include "effects/shadow_lights/map_lights.h"
+#include "host/app/console.h"
 #include "host/app/values.h"
 #include "host/error.h"
 
@@ -77,8 +78,9 @@ TimeModel timesOfFrames(render::Renderer& renderer, const render::Settings& sett
         return 1e-3 * renderer.render(probe).deviceMilliseconds;
     };
     const double few = seconds(fewLights), many = seconds(manyLights);
+    const Window made = render::outputWindow(settings);
     const double pixels =
-        static_cast<double>(settings.width) * settings.height / (static_cast<double>(probe.width) * probe.height);
+        static_cast<double>(made.width()) * made.height() / (static_cast<double>(probe.width) * probe.height);
     const double each = std::max(many - few, 1e-3 * many) / (manyLights - fewLights);
     return { pixels * each, pixels * std::max(few - fewLights * each, 0.0) };
 }
@@ -123,26 +125,35 @@ void refuseShadows(const RenderOptions& o, const std::string& with, const std::s
         shadowOfThem(o), remedy);
 }
 
-double chooseShadows(render::Renderer& renderer, double seconds, render::Settings& settings)
+std::string chooseShadows(render::Renderer& renderer, double seconds, render::Settings& settings)
 {
     render::ShadowSettings& s = settings.environment.shadows;
     const TimeModel model = timesOfFrames(renderer, settings);
-    const render::PlaceGrid places =
-        render::placeGrid(renderer.scene().picture()->width, renderer.scene().picture()->height);
+    const render::EnvironmentPicture& picture = *renderer.scene().picture();
+    const render::PlaceGrid places = render::placeGrid(picture.width, picture.height);
     const int most = std::min(render::mostShadowLights, places.columns * places.rows);
-    constexpr int sides[] = { 1, 2, 4, 32 };
     const int enough = std::min(render::ShadowSettings().lights, most);
-    double share = 1;
-    for (const int side : sides) {
-        share = 1.0 / (side * side);
+    const bool scales = s.shadows != render::Shadows::Additive && s.whole != render::WholeLight::Lights;
+    double expected = 0;
+    for (const int side : shadowBlockSides) {
+        if (side > 1 && (!scales || settings.width * settings.height < side * side)) {
+            break;
+        }
+        const double each = std::max(model.each / (side * side), 1e-12);
         s.blockSide = side;
-        s.lights = static_cast<int>(
-            std::clamp((seconds - model.constant) / (model.each * share), 1.0, static_cast<double>(most)));
-        if (s.lights >= enough || s.shadows == render::Shadows::Additive || s.whole == render::WholeLight::Lights) {
+        s.lights = static_cast<int>(std::clamp((seconds - model.constant) / each, 1.0, static_cast<double>(most)));
+        expected = model.constant + each * s.lights;
+        if (s.lights >= enough) {
             break;
         }
     }
-    return model.constant + model.each * share * s.lights;
+    const std::string chosen = fmt::format("--shadow-lights {} --shadow-scale {}: about {:.3g} s",
+        render::shadowLightsText(s), render::shadowScaleText(s), expected);
+    if (expected > 1.05 * seconds) {
+        warn(message("frames of few lights take longer", fmt::format("--shadow-time {}", seconds),
+            fmt::format("the least there is was chosen: {}", chosen)));
+    }
+    return chosen;
 }
 
 } // namespace wedge::app

@@ -117,6 +117,11 @@ void validateShadows(const Settings& s, bool distributed)
     const int side = shadows.blockSide;
     requireRange(side == 1 || side == 2 || side == 4 || side == 32, "pixels along a side of those of which one traces",
         fmt::format("{}", side), "1, 2, 4 or 32");
+    if (shadows.shadows != Shadows::Sampled && s.width * s.height < side * side) {
+        throw UsageError("scale of shadows leaves less than a pixel of the image",
+            fmt::format("--shadow-scale {}, {}x{}", shadowScaleText(shadows), s.width, s.height),
+            "take a larger share or a larger image");
+    }
     if (shadows.shadows != Shadows::Sampled && distributed) {
         throw UsageError("shadows of lights are of frames through a pinhole where nothing moves, neither antialiased "
                          "nor progressive",

@@ -41,7 +41,7 @@ WEDGE_FN void traceLight(__global const TraversalNode* restrict nodes, __global 
 {
     RayPacket packet;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        cosine[lane] = vecDot(vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), towards);
+        cosine[lane] = vecDot(laneNormal(r, lane), towards);
         setRay(&packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), towards, 0.0f,
             cosine[lane] > 0.0f ? INFINITY : 0.0f);
         setTime(&packet, lane, receiverTime(r, lane));
@@ -197,19 +197,25 @@ WEDGE_INLINE void addToLaneOfLobes(
 {
     if (cosine > 0.0f) {
         const float own = lobeOfLane(r, &lobes->ownLobes, light.towards, lane);
-        const float wide = lobeOfLane(r, &lobes->wideLobes, light.towards, lane);
         addToLane(light.irradiance, cosine * own, hidden, lane, &lobes->own);
-        addToLane(light.irradiance, cosine * wide, hidden, lane, &lobes->wide);
+        if (lobes->widest > 0.0f) {
+            const float wide = lobeOfLane(r, &lobes->wideLobes, light.towards, lane);
+            addToLane(light.irradiance, cosine * wide, hidden, lane, &lobes->wide);
+        }
     }
 }
 #endif
+
+/// Least luminance of a reflectance where lights are ranked: black texels choose, too, as their neighbours may go by
+/// what they see.
+#define WEDGE_LEAST_RANKED 1e-3f
 
 /// By how much a receiver reflects light of each kind: luminances of a plane; 0 in lanes without a pixel.
 WEDGE_FN void loadLuminances(__global const float* reflectance, uint size, const uint* pixel, float* out)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool has = pixel[lane] != WEDGE_NO_PIXEL;
-        out[lane] = has ? luminance(loadVec(reflectance, size, pixel[lane])) : 0.0f;
+        out[lane] = has ? fmax(luminance(loadVec(reflectance, size, pixel[lane])), WEDGE_LEAST_RANKED) : 0.0f;
     }
 }
 

@@ -88,16 +88,17 @@ __kernel void resampleShadows(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize, cx = x / coarse.scale, cy = y / coarse.scale;
-    if (x == middlePixel(cx, coarse.scale, p.width) && y == middlePixel(cy, coarse.scale, p.height)) {
+    const uint middleX = middlePixel(cx, coarse.scale, p.width), middleY = middlePixel(cy, coarse.scale, p.height);
+    if (x == middleX && y == middleY) {
         rays[i] += coarseRays[pixelIndex(cx, cy, coarse.stride)];
     }
     if (objectId[i] == 0u) {
         return;
     }
     const Vec3 at = loadVec(position, size, i), n = loadVec(normal, size, i);
-    const float toMiddle = (float)(coarse.scale / 2u), side = (float)coarse.scale;
-    const Vec3 across = splineWeights(((float)x - toMiddle) / side - (float)cx);
-    const Vec3 down = splineWeights(((float)y - toMiddle) / side - (float)cy);
+    const float side = (float)coarse.scale;
+    const Vec3 across = splineWeights(((float)x - (float)middleX) / side);
+    const Vec3 down = splineWeights(((float)y - (float)middleY) / side);
     const float wx[3] = { across.x, across.y, across.z }, wy[3] = { down.x, down.y, down.z };
     const float off = WEDGE_NEIGHBOUR_DEPTH * side * pixelSize[i];
     Neighbours near;

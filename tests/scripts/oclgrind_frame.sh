@@ -121,7 +121,7 @@ check sky_corrected "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf 
 check sky_lights "$scenes/sky.toml" --traversal wide --size 5x4 --method mc --spp 1 --shadows ratio --shadow-lights 5
 check sky_lights_prefiltered "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows ratio --shadow-lights 2 --shadow-complete prefiltered
 check sky_lights_few "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows subtractive --shadow-lights 5 --shadow-scale 1/4
-check sky_lights_chosen "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows ratio --shadow-lights 5:2 --shadow-scale 1/1024
+check sky_lights_chosen "$scenes/sky.toml" --traversal wide --size 7x5 --method mc --spp 1 --shadows ratio --shadow-lights 5:2 --shadow-scale 1/16
 check sky_lights_scalar "$scenes/sky.toml" --traversal scalar --size 7x5 --method aaf --spp 16 --shadows subtractive --shadow-lights 5
 check styled "$scenes/styled.toml" --traversal wide --size 19x13 --method mc --spp 1
 # By how far away what throws the shadow is; of some things on some things.
