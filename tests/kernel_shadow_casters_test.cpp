@@ -1,5 +1,6 @@
 // Shadows of some things on some things: the kernels of casters and receivers, against the host.
 #include "effects/styled_shadows/style_knobs.h"
+#include "effects/styled_shadows/styled_shadows.h"
 #include "tests/shadow_bench.h"
 
 using namespace wedge;
@@ -77,6 +78,20 @@ TEST_CASE("shadowOfCasters: what casters hide, and what all other things do, eac
         for (const unsigned kind : kinds)
             CHECK(kind > 10);
         CHECK(differ <= 4); // rays through edges
+    });
+}
+
+TEST_CASE("a frame's work has each shadow of a light, one of each group of casters")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = named();
+        std::vector<scene::ShadowStyle>& styles = scene.directionalLights.front().styles;
+        styles.resize(3, styles.front());
+        styles.back().casters = { "board" };
+        const DeclaredFrame frame(device, scene, sized(render::monteCarlo(1), width, height));
+        const auto work = render::styledShadows()->unfiltered(render::monteCarlo(1), frame.scene());
+        REQUIRE(work);
+        CHECK(work->workUnits == 2);
     });
 }
 

@@ -47,6 +47,56 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
     });
 }
 
+TEST_CASE("shadowDistance: a pixel is as near to an edge where styles tell kilometres apart")
+{
+    onEveryDevice([](const device::Device& device) {
+        Traced traced(device);
+        const Seen s(traced);
+        const std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
+        PassBench bound(traced.frame, "boundEdges"), bench(traced.frame, "shadowDistance");
+        const std::vector<float> edges = listOf(pieces, bench.elements("edges"));
+        const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
+        bound.plane("edges", edges);
+        bound.plane("listed", listed);
+        bound.run();
+        traced.give(bench);
+        bench.plane("edges", edges);
+        bench.plane("listed", listed);
+        bench.plane("boxes", bound.read<float>("boxes"));
+        for (const float largest : { 3e4f, 9e12f })
+            for (const bool published : { false, true }) {
+                CAPTURE(largest);
+                CAPTURE(published);
+                bench.value("largest", largest);
+                bench.value("published", published ? 1u : 0u);
+                bench.run();
+                const auto distance = bench.pixels<float>("distance");
+                unsigned near = 0, differ = 0;
+                everyPixel(traced.frame.layout, [&](int x, int y) {
+                    if (s.matte.at(x, y) < 0 || (published && s.normal.vector(x, y).y < 0.999))
+                        return;
+                    const glm::dvec3 at = s.position.vector(x, y), n = s.normal.vector(x, y);
+                    double expected = published ? 0 : distanceTo(pieces, at, n, double { largest });
+                    if (published) {
+                        double sum = 0, all = 0;
+                        for (const Piece& piece : pieces) {
+                            const bool faces = glm::dot(piece.normal, n) > std::numbers::sqrt2 / 2;
+                            sum += faces ? piece.length * std::pow(glm::length(piece.middle - at), -8) : 0;
+                            all += faces ? piece.length : 0;
+                        }
+                        expected = std::pow(sum / all, -1.0 / 8);
+                    }
+                    if (expected > 100)
+                        return; // no edge faces as it does
+                    differ += std::abs(std::abs(distance.at(x, y)) - expected) <= 1e-3 * expected ? 0 : 1;
+                    ++near;
+                });
+                CHECK(near > 1000);
+                CHECK(differ == 0);
+            }
+    });
+}
+
 TEST_CASE("smoothDistance: a Gaussian along surfaces, by every pixel or every so manieth")
 {
     onEveryDevice([](const device::Device& device) {

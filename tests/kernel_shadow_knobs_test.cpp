@@ -223,7 +223,7 @@ TEST_CASE("addStyle: edge, width and what is left by what hides the light, withi
         bench.plane("distance", distance);
         bench.plane("share", share);
         bench.plane("away", away);
-        bench.plane("zeros", std::vector<float> { 0.0f });
+        bench.plane("zeros", std::vector<float> { 0.0f, 0 });
         bench.value("weight", 0.25f);
         bench.run();
         const auto after = bench.pixels<float>("share");
@@ -268,6 +268,12 @@ TEST_CASE("what distances styles tell apart, and how far away things are that hi
     for (int axis = 0; axis < 3; ++axis)
         way = std::min(way, extent[axis] / std::abs(sunward[axis]));
     CHECK(render::farthestOccluder(scene, 0) == doctest::Approx(way).epsilon(1e-5));
+    // A key tells it of all moments.
+    scene::ShadowStyle changing;
+    changing.keys = { {}, styles.front() };
+    CHECK(render::variesByOccluder(changing));
+    changing.keys.pop_back();
+    CHECK_FALSE(render::variesByOccluder(changing));
     scene.pointLights.push_back({ bounds.lo + glm::vec3(0.25f) * (bounds.hi - bounds.lo), glm::vec3(1), "", {} });
     CHECK(render::farthestOccluder(scene, 0) == doctest::Approx(0.75 * glm::length(extent)).epsilon(1e-5));
 }

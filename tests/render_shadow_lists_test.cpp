@@ -63,6 +63,24 @@ TEST_CASE("casters' shadows have the style, and what others throw its own edges:
     });
 }
 
+TEST_CASE("behind 4096 surfaces a ray of casters is dark")
+{
+    onEveryDevice([](const device::Device& device) {
+        const auto middleUnder = [&](int layers) {
+            SceneBuilder b = underSun();
+            b.scene.geometry.objectNames = { "floor/", "stack/" };
+            for (int k = 0; k < layers; ++k)
+                b.quad({ 0, 2 + 5e-4f * static_cast<float>(k), 0 }, { 0, 0, 0.3f }, { 0.3f, 0, 0 });
+            scene::ShadowStyle s = style(0, 0, 0, 0.5f);
+            s.casters = { "stack" };
+            const std::vector<float> image = rendered(device, b.scene, s, settings(33, 25));
+            return image[3 * (12 * 33 + 16)] / lit;
+        };
+        CHECK(middleUnder(4090) == doctest::Approx(0.5).epsilon(1e-4));
+        CHECK(middleUnder(4100) == 0);
+    });
+}
+
 TEST_CASE("lists of all things have the bits of none")
 {
     onEveryDevice([](const device::Device& device) {

@@ -208,6 +208,12 @@ TEST_CASE("what is wrong in a style is told with its place")
     says(style + "brightness = { at = [0, 1, 0, 1] }\n",
         "at of light.style.brightness must have three numbers or three colours: 4 numbers");
     says(style + "brightness = { at = [-0.5, 0, 0] }\n", "brightness of light.style is out of range: -0.5");
+    const std::string alike = " must be one list of numbers, or several of as many each: ";
+    says(style + "brightness = { at = [[0.25, 0.5, 0.75]] }\n",
+        "at of light.style.brightness" + alike + "[ [ 0.25, 0.5, 0.75 ] ]");
+    says(style + "brightness = { at = [[1], [2, 3], [4, 5, 6, 7, 8, 9]] }\n", alike);
+    says(style + "brightness = { at = [[1, 2, 3], 4, 5, 6, [7, 8, 9]] }\n", alike);
+    says(style + "inflation = { at = [[0], [1], [0]] }\n", "at of light.style.inflation" + alike);
     says(style + "weight = { at = [1, 0, 0] }\n", "weight of light.style must be a number");
     const scene_test::TemporaryFolder folder;
     const std::string quad = scene_test::errorOf(folder.write("s.toml",

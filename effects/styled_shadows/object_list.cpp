@@ -3,8 +3,9 @@
 #include "host/graph/lists.h"
 #include "host/scene/object_names.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace wedge::render {
@@ -12,10 +13,10 @@ namespace wedge::render {
 Arguments objectList(FrameBuilder& frame, const char* name, const std::vector<std::string>& names)
 {
     const std::vector<std::string>& objects = frame.description.geometry.objectNames;
+    const std::set<std::string> wanted(names.begin(), names.end());
     std::vector<std::uint32_t> flags(objects.size() + 1, 0);
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        const auto calls = [&](const std::string& called) { return scene::isCalled(objects[i], called); };
-        flags[i + 1] = std::ranges::any_of(names, calls) ? 1 : 0;
+        flags[i + 1] = scene::isCalledOneOf(objects[i], wanted) ? 1 : 0;
     }
     const auto count = static_cast<std::uint32_t>(flags.size());
     auto list = frame.graph.list<Count>(name, graph::counts, count);

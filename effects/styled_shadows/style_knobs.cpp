@@ -52,7 +52,7 @@ float mostOf(const shared::StyleKnob& knob, float farthest)
 bool variesByOccluder(const scene::ShadowStyle& style)
 {
     return style.inflation.varies() || style.softness.varies() || style.abstraction.varies()
-        || style.brightness.varies();
+        || style.brightness.varies() || std::ranges::any_of(style.keys, variesByOccluder);
 }
 
 float farthestOccluder(const scene::Scene& scene, std::uint32_t index)

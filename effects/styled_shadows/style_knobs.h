@@ -26,7 +26,7 @@ shared::StyleKnob brightnessOf(const scene::ShadowStyle& style, int channel);
 /// The largest that a knob has, either way, for what is up to so many metres away.
 float mostOf(const shared::StyleKnob& knob, float farthest);
 
-/// Whether a style goes by how far away what hides the light is.
+/// Whether a style goes by how far away what hides the light is, or does at one of its keys.
 bool variesByOccluder(const scene::ShadowStyle& style);
 
 /// Metres that nothing is farther away than, of what hides a light from what it lights: a directional one, or a point

@@ -7,7 +7,6 @@
 #include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -31,9 +30,6 @@ constexpr const char* stylesProgram = "light/shadow_styles.cl";
 
 struct Matte { }; ///< WEDGE_MATTE_*
 struct Edges { }; ///< pieces of shadows' edges, and boxes around them
-
-/// The least power of 2 that is not less, within what single precision takes the eighth power of.
-float unitOf(float metres) { return std::exp2(std::ceil(std::log2(std::max(metres, 1e-9f)))); }
 
 /// Blocks of 16 pixels that are taken one after the other.
 constexpr std::size_t blocksOfTile = 4;
@@ -168,12 +164,12 @@ private:
         f_.graph.add({ .name = "distances to shadows' edges",
             .kind = PassKind::Analysis,
             .kernel = { distanceProgram, "shadowDistance" },
-            .arguments = joined({ f_.rectangle(f_.analysisParams()) }, facing,
-                Arguments { reads("matte", matte_), occluder() },
-                graph::together(
-                    "edges", joined(edges(), Arguments { value("published", f_.settings.published ? 1u : 0u) })),
-                Arguments { value("unit", unitOf(largest_)), value("largest", largest_), value("farthest", farthest_),
-                    updates("distance", distance_), varies_ ? updates("away", away_) : graph::absent("away") }),
+            .arguments =
+                joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_), occluder() },
+                    graph::together(
+                        "edges", joined(edges(), Arguments { value("published", f_.settings.published ? 1u : 0u) })),
+                    Arguments { value("largest", largest_), value("farthest", farthest_),
+                        updates("distance", distance_), varies_ ? updates("away", away_) : graph::absent("away") }),
             .domain = graph::Domain::Tiles,
             .count =
                 [](const Launch& launch) {
@@ -216,7 +212,7 @@ private:
     /// What a style goes by, and where in it the shadow's edge is.
     struct Smoothed {
         graph::Handle<Metres> distance;
-        graph::Handle<Metres> zeros; ///< one number; of no graph: none but 0
+        graph::Handle<Metres> zeros; ///< the first of its numbers; of no graph: none but 0
     };
 
     Smoothed smoothed(std::size_t of)
@@ -233,22 +229,24 @@ private:
                     knob("deviation", of, abstractionOf), value("largest", largest_),
                     writes("smoothed", out.distance) }));
         if (style.keepArea) {
-            out.zeros = zerosOf(out.distance, of);
+            out.zeros = zerosOf(out.distance);
         }
         return out;
     }
 
-    /// The distance at which as much is in shadow as was.
-    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance, std::size_t style)
+    /// The distance at which as much is in shadow as was: its class, and then itself within that.
+    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance)
     {
-        // Metres to either side of 0.
-        const graph::Argument range = knob("range", style, [farthest = farthest_](const scene::ShadowStyle& s) {
-            return WEDGE_STYLE_CUT * mostOf(abstractionOf(s), farthest);
-        });
+        const graph::Handle<Metres> found = zerosWithin(distance, graph::absent("found"));
+        return zerosWithin(distance, reads("found", found));
+    }
+
+    graph::Handle<Metres> zerosWithin(const graph::Handle<Metres>& distance, const graph::Argument& found)
+    {
         auto areas = f_.graph.list<Edges>(
             "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
         f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "countAreas" }, WEDGE_AREA_STRIPES,
-            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), range,
+            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), found,
                 reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
                 writes("areas", areas) });
         auto sums = f_.graph.list<Edges>("areas in shadow, together", graph::floats, WEDGE_AREA_NUMBERS);
@@ -260,9 +258,9 @@ private:
             .domain = graph::Domain::Items,
             .count = [](const Launch&) { return std::size_t { WEDGE_AREA_NUMBERS }; },
             .mostItems = WEDGE_AREA_NUMBERS });
-        auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 1);
+        auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 2);
         f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "keepArea" }, 1,
-            { graph::unlessEmpty("items", 1), range, reads("sums", sums), writes("zeros", zeros) });
+            { graph::unlessEmpty("items", 1), found, reads("sums", sums), writes("zeros", zeros) });
         return zeros;
     }
 
@@ -355,13 +353,16 @@ public:
             return std::nullopt;
         }
         requireStylable(settings, scene);
+        std::size_t shadows = 0; // rays a pixel
+        for (const StyledLight& light : lights) {
+            shadows += groupsOf(light).size();
+        }
         const bool changes = std::ranges::any_of(lights, [](const StyledLight& light) {
             return std::ranges::any_of(light.styles, [](const auto& style) { return !style.keys.empty(); });
         });
-        return Unfiltered { .name = "styled shadows",
-            .workUnits = static_cast<double>(lights.size()),
-            .changes = changes,
-            .sample = sample };
+        return Unfiltered {
+            .name = "styled shadows", .workUnits = static_cast<double>(shadows), .changes = changes, .sample = sample
+        };
     }
 
     std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene* scene) const override

@@ -1,15 +1,17 @@
 #include "host/scene/object_names.h"
 
-#include <set>
-
 namespace wedge::scene {
 
-bool isCalled(const std::string& object, const std::string& name)
+bool isCalledOneOf(const std::string& object, const std::set<std::string>& names)
 {
-    return object.starts_with(name) && (object.size() == name.size() || object[name.size()] == '/');
+    for (std::size_t slash = object.find('/'); slash != std::string::npos; slash = object.find('/', slash + 1)) {
+        if (names.contains(object.substr(0, slash)))
+            return true;
+    }
+    return names.contains(object);
 }
 
-std::vector<std::string> allNames(const std::vector<std::string>& objects)
+std::set<std::string> allNames(const std::vector<std::string>& objects)
 {
     std::set<std::string> names;
     for (const std::string& object : objects) {
@@ -17,7 +19,7 @@ std::vector<std::string> allNames(const std::vector<std::string>& objects)
             names.insert(object.substr(0, slash));
         names.insert(object);
     }
-    return { names.begin(), names.end() };
+    return names;
 }
 
 } // namespace wedge::scene

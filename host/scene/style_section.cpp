@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -124,13 +125,12 @@ ShadowStyle readStyle(TableReader& table, bool several, double time)
     return style;
 }
 
-/// Throws where no object goes by one of the names under the key.
-void checkNames(TableReader& style, const std::string& key, const std::vector<std::string>& objects)
+/// Throws where one of the names under the key is not among those that objects go by.
+void checkNames(TableReader& style, const std::string& key, const std::set<std::string>& known)
 {
     for (const std::string& name : style.names(key)) {
-        if (std::ranges::any_of(objects, [&](const std::string& object) { return isCalled(object, name); }))
+        if (known.contains(name))
             continue;
-        const std::vector<std::string> known = allNames(objects);
         const std::string near = nearest(name, { known.begin(), known.end() });
         style.fail(key, "names no object of the scene", fmt::format("'{}'", name),
             near.empty() ? "wedge info lists the objects" : fmt::format("did you mean '{}'?", near));
@@ -166,10 +166,15 @@ std::vector<ShadowStyle> readStyles(TableReader& light, double time)
 
 void checkObjectNames(TableReader& root, const Geometry& geometry)
 {
+    std::optional<std::set<std::string>> known; // there may be millions
     for (TableReader& light : root.tables("light")) {
         for (TableReader& style : light.tables("style")) {
-            for (const char* key : { "casters", "receivers" })
-                checkNames(style, key, geometry.objectNames);
+            for (const char* key : { "casters", "receivers" }) {
+                if (!known && !style.names(key).empty())
+                    known = allNames(geometry.objectNames);
+                if (known)
+                    checkNames(style, key, *known);
+            }
         }
     }
 }

@@ -28,6 +28,20 @@ std::string shown(const toml::node& node)
     return shortened(text, 60);
 }
 
+/// Whether a list is one of rows, and these are not alike: two or more, of two or more each, so that nothing else is
+/// taken for what its numbers add up to.
+bool hasUnlikeRows(const toml::array& list)
+{
+    const auto isRow = [](const toml::node& element) { return element.is_array(); };
+    if (std::none_of(list.begin(), list.end(), isRow))
+        return false;
+    const toml::array* first = list.front().as_array();
+    return first == nullptr || list.size() < 2 || first->size() < 2
+        || !std::all_of(list.begin(), list.end(), [&](const toml::node& element) {
+               return element.is_array() && element.as_array()->size() == first->size();
+           });
+}
+
 } // namespace
 
 toml::table parseToml(const std::string& text, const std::filesystem::path& file)
@@ -224,6 +238,9 @@ std::optional<std::vector<double>> TableReader::numbers(const std::string& key, 
 void TableReader::appendNumbers(
     const std::string& key, const toml::node& node, int depth, std::vector<double>& out) const
 {
+    if (depth == 0 && hasUnlikeRows(*node.as_array()))
+        fail(key, "must be one list of numbers, or several of as many each", shown(node),
+            fmt::format("leave out brackets in {}, or fill each list", key));
     for (const toml::node& element : *node.as_array()) {
         if (element.is_array() && depth == 0)
             appendNumbers(key, element, 1, out);

@@ -6,8 +6,10 @@
 #include "core/vector16.h"
 #include "shared/styled_shadows.h"
 
-/// Least squares that distances have to edges, over the square of their unit: the power below overflows at less.
-#define WEDGE_LEAST_SQUARE 1e-9f
+/// Least unit of distances to edges, metres: 2^-50. Squares of less come near to underflow.
+#define WEDGE_LEAST_UNIT 8.8817842e-16f
+/// Least squares that distances have to edges, over the square of their unit: but for rounding none is below 1.
+#define WEDGE_LEAST_SQUARE 0.25f
 
 /// A block of pixels, and the edges that they are near to.
 typedef struct {
@@ -102,6 +104,14 @@ WEDGE_FN float16 nearestSquare(const EdgeBlock* b, float most)
     return nearest;
 }
 
+/// 1 over the unit of each lane's distances to edges, 1/m: a power of 2, of which the nearest edge is 1 to 2 away. So
+/// the power below has room, whatever the size of the scene is.
+WEDGE_INLINE float16 perUnitOf(float16 nearestSquares)
+{
+    const float16 metres = sqrt(max16(nearestSquares, (float16)(WEDGE_LEAST_UNIT * WEDGE_LEAST_UNIT)));
+    return 1.0f / as_float16(as_int16(metres) & 0x7f800000);
+}
+
 /// Sums over edges, one by one: what chunks they are in does not show in their bits.
 typedef struct {
     float16 weights; ///< of len r^-8
@@ -111,7 +121,7 @@ typedef struct {
 /// Adds a chunk of edges within a reach of each lane, in units of 1 / perUnit metres. perAway: 1 over the unit of what
 /// is away, 1/m; 0 where nothing goes by it.
 WEDGE_INLINE void addChunk(
-    const EdgeBlock* b, uint chunk, float perUnit, float16 reachSquare, const float perAway, EdgeSums* sums)
+    const EdgeBlock* b, uint chunk, float16 perUnit, float16 reachSquare, const float perAway, EdgeSums* sums)
 {
     const uint begin = chunk * WEDGE_EDGE_CHUNK, end = min(begin + WEDGE_EDGE_CHUNK, b->count);
     for (uint k = begin; k < end; ++k) {
@@ -129,7 +139,7 @@ WEDGE_INLINE void addChunk(
 }
 
 /// Those of all edges.
-WEDGE_FN EdgeSums edgeSums(const EdgeBlock* b, float perUnit, float16 reachSquare, const float perAway)
+WEDGE_FN EdgeSums edgeSums(const EdgeBlock* b, float16 perUnit, float16 reachSquare, const float perAway)
 {
     const float most = largestOf(reachSquare);
     EdgeSums sums;
@@ -151,12 +161,12 @@ WEDGE_FN EdgeSums edgeSums(const EdgeBlock* b, float perUnit, float16 reachSquar
 }
 
 /// The length of all edges that count for each lane, whatever their distance, in those units.
-WEDGE_FN float16 edgeLength(const EdgeBlock* b, float perUnit)
+WEDGE_FN float16 edgeLength(const EdgeBlock* b, float16 perUnit)
 {
     float16 sum = (float16)(0.0f);
     for (uint k = 0u; k < b->count; ++k) {
         const float8 piece = vload8(k, b->edges);
-        sum += facesAs(b, piece) ? (float16)(piece.s6 * perUnit) : (float16)(0.0f);
+        sum += facesAs(b, piece) ? piece.s6 * perUnit : (float16)(0.0f);
     }
     return sum;
 }

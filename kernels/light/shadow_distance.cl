@@ -16,8 +16,8 @@
 /// apart it goes over into a pixel's own, within as much again.
 ///
 /// in      p, position, normal, matte, occluder; edges, boxes, listed[0], most: how many edges, room: for boxes;
-///         published: 1 or 0; unit: metres, a power of 2; largest, farthest: metres, that are told apart of distances
-///         and of what hides the light, above 0
+///         published: 1 or 0; largest, farthest: metres, that are told apart of distances and of what hides the
+///         light, above 0
 /// in out  distance: metres, below 0 in shadow, 0 where the matte is unknown or nobody came to; away: metres, of what
 ///         hides the light
 #include "pass/shadowDistance.h"
@@ -53,18 +53,20 @@ __kernel void shadowDistance(PARAMETERS)
     EdgeSums sums;
     const float perAway = HAS_away ? 1.0f / farthest : 0.0f;
     if (published != 0u) {
-        sums = edgeSums(&b, 1.0f / unit, (float16)(3e38f), perAway);
-        const float16 mean = sums.weights / max16(edgeLength(&b, 1.0f / unit), (float16)(1e-30f));
-        d = min16(unit * exp2Block(log2Block(mean) * (-1.0f / 8.0f)), d);
+        const float16 perUnit = perUnitOf(nearestSquare(&b, 3e38f));
+        sums = edgeSums(&b, perUnit, (float16)(3e38f), perAway);
+        const float16 mean = sums.weights / max16(edgeLength(&b, perUnit), (float16)(1e-30f));
+        d = min16(exp2Block(log2Block(mean) * (-1.0f / 8.0f)) / perUnit, d);
     } else {
         // An edge all around is nearer in the mean than at its nearest, but not by half.
         const float square = largest * largest, beyond = 4.0f * square;
         const float16 nearest = nearestSquare(&b, beyond);
         const int16 near = b.known & (nearest < beyond);
         const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
-        sums = edgeSums(&b, 1.0f / unit, near ? reach : (float16)(-1.0f), perAway);
+        const float16 perUnit = perUnitOf(nearest);
+        sums = edgeSums(&b, perUnit, near ? reach : (float16)(-1.0f), perAway);
         const float16 power = log2Block(sums.weights * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
-        d = near ? min16(unit * exp2Block(power), d) : d;
+        d = near ? min16(exp2Block(power) / perUnit, d) : d;
         far = sqrt(max16(nearest, (float16)(0.0f))) * (1.0f / largest) - 1.0f;
     }
     vstore16(b.known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);

@@ -47,7 +47,11 @@ __kernel void shadowMatte(PARAMETERS)
 }
 #endif
 
-/// The same of some casters and of all other things, each as if they were alone: a ray goes on until both are known.
+/// Surfaces that a ray goes on behind, at most.
+#define WEDGE_MOST_SURFACES 4096u
+
+/// The same of some casters and of all other things, each as if they were alone: a ray goes on until both are known, or
+/// counts as hidden by both behind WEDGE_MOST_SURFACES.
 ///
 /// in      as of shadowMatte(); objectIds: of triangles; casters: 1 or 0 for each id below `objects`
 /// in out  matte, occluder, rays: as of shadowMatte(), of the casters; others: WEDGE_MATTE_*, unknown before
@@ -67,7 +71,8 @@ __kernel void shadowOfCasters(PARAMETERS)
         met[lane] = 0.0f;
         byCasters[lane] = byOthers[lane] = false;
     }
-    for (bool more = true; more;) {
+    bool more = true;
+    for (uint turn = 0u; more && turn < WEDGE_MOST_SURFACES; ++turn) {
         PacketHits hits;
         closestHits(nodes, blocks, &packet, &hits);
         more = false;
@@ -88,6 +93,10 @@ __kernel void shadowOfCasters(PARAMETERS)
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers.pixel[lane];
+        if (more && packet.tMax[lane] > 0.0f) { // went on
+            met[lane] = byCasters[lane] ? met[lane] : packet.tMin[lane];
+            byCasters[lane] = byOthers[lane] = true;
+        }
         if (i != WEDGE_NO_PIXEL && cosine[lane] > 0.0f) {
             rays[i] += 1u;
             matte[i] = byCasters[lane] ? WEDGE_MATTE_SHADOW : WEDGE_MATTE_LIT;

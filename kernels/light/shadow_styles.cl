@@ -6,10 +6,24 @@
 #include "shared/filter_params.h"
 #include "shared/styled_shadows.h"
 
-/// How much of what is seen lies at each distance, and how much in shadow, m^2: of stripes of rows.
+/// Numbers that have the order of finite floats, from the least below 0 on; and back.
+WEDGE_FN uint orderOf(float value)
+{
+    const uint bits = as_uint(value);
+    return (bits >> 31) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+WEDGE_FN float valueAt(uint order) { return as_float((order >> 31) != 0u ? order & 0x7fffffffu : ~order); }
+
+/// Classes of distances are those of the first bits of orderOf(); and within one of them those of the next bits.
+#define WEDGE_AREA_SHIFT (32u - WEDGE_AREA_BITS)
+#define WEDGE_AREA_REST (WEDGE_AREA_SHIFT - WEDGE_AREA_BITS)
+
+/// How much of what is seen lies at each distance, and how much in shadow, m^2: of stripes of rows. In classes whose
+/// width is a share of the distance, whatever the size of the scene is.
 ///
-/// in   p, of the whole image; distance: smoothed; matte, pixelSize; stripes; range: metres that are told apart to
-///      either side of 0
+/// in   p, of the whole image; distance: smoothed; matte, pixelSize; stripes; found: of keepArea(), the class that is
+///      told apart; absent: all distances are
 /// out  areas: WEDGE_AREA_NUMBERS a stripe
 #include "pass/countAreas.h"
 #ifdef PASS_countAreas
@@ -23,14 +37,19 @@ __kernel void countAreas(PARAMETERS)
     for (uint k = 0u; k < WEDGE_AREA_NUMBERS; ++k) {
         own[k] = 0.0f;
     }
-    const float perClass = 0.5f * (float)WEDGE_AREA_BINS / range;
     for (uint y = stripe; y < p.height; y += stripes) {
         for (uint x = 0u; x < p.width; ++x) {
             const uint i = pixelIndex(x, y, p.stride);
             const float v = matte[i], area = pixelSize[i] * pixelSize[i];
             if (v >= 0.0f) {
-                const float at = clamp((distance[i] + range) * perClass, 0.0f, (float)WEDGE_AREA_BINS - 1.0f);
-                own[(uint)at] += area;
+                const uint order = orderOf(distance[i]);
+#if HAS_found
+                if ((int)(order >> WEDGE_AREA_SHIFT) == (int)found[0]) {
+                    own[(order >> WEDGE_AREA_REST) % WEDGE_AREA_BINS] += area;
+                }
+#else
+                own[order >> WEDGE_AREA_SHIFT] += area;
+#endif
                 own[v < 0.5f ? WEDGE_AREA_BINS : WEDGE_AREA_BINS + 1u] += area;
             }
         }
@@ -58,10 +77,11 @@ __kernel void sumAreas(PARAMETERS)
 }
 #endif
 
-/// The distance below which as much lies as was in shadow.
+/// The distance below which as much lies as was in shadow: first the class that it is in, then itself.
 ///
-/// in   sums: of sumAreas(); range: as of countAreas(); items: 1
-/// out  zeros: that one number, metres; 0 where all or nothing is in shadow
+/// in   sums: of sumAreas(); found: what it found first; absent: nothing yet; items: 1
+/// out  zeros: two numbers: the distance, metres, 0 where all or nothing is in shadow; first its class, -1 there; and
+///      the area below the class, m^2
 #include "pass/keepArea.h"
 #ifdef PASS_keepArea
 __kernel void keepArea(PARAMETERS)
@@ -70,16 +90,32 @@ __kernel void keepArea(PARAMETERS)
         return;
     }
     const float shadow = sums[WEDGE_AREA_BINS], light = sums[WEDGE_AREA_BINS + 1u];
-    zeros[0] = 0.0f;
     float below = 0.0f;
-    for (uint k = 0u; k < WEDGE_AREA_BINS && shadow > 0.0f && light > 0.0f; ++k) {
-        if (below + sums[k] >= shadow) {
-            const float at = (float)k + (shadow - below) / sums[k];
-            zeros[0] = at * (2.0f * range / (float)WEDGE_AREA_BINS) - range;
-            return;
+#if HAS_found
+    below = found[1];
+#endif
+    // Sums round: where none reaches what is in shadow it is the last class that has anything.
+    uint at = WEDGE_AREA_BINS;
+    float start = below;
+    for (uint k = 0u; k < WEDGE_AREA_BINS && light > 0.0f && below < shadow; ++k) {
+        if (sums[k] > 0.0f) {
+            at = k;
+            start = below;
+            below += sums[k];
         }
-        below += sums[k];
     }
+    const bool some = at < WEDGE_AREA_BINS;
+    zeros[1] = start;
+#if HAS_found
+    zeros[0] = 0.0f;
+    if (some && found[0] >= 0.0f) {
+        const float part = clamp((shadow - start) / sums[at], 0.0f, 1.0f);
+        const uint width = 1u << WEDGE_AREA_REST, first = (uint)found[0] << WEDGE_AREA_SHIFT;
+        zeros[0] = valueAt(first + at * width + (uint)(part * (float)(width - 1u)));
+    }
+#else
+    zeros[0] = some ? (float)at : -1.0f;
+#endif
 }
 #endif
 

@@ -29,11 +29,11 @@
 #define WEDGE_STYLE_CUT 3.0f
 #define WEDGE_STYLE_TAPS 10
 
-/// Classes of distances that shadows' areas are counted by, over WEDGE_STYLE_CUT deviations of the blur to either side;
-/// and stripes of rows that are counted by themselves. Each has the classes, and behind them what is in shadow and what
-/// is lit.
-#define WEDGE_AREA_BINS 2048u
-#define WEDGE_AREA_NUMBERS 2050u
+/// Classes of distances that shadows' areas are counted by, of so many bits, and of each as many; and stripes of rows
+/// that are counted by themselves. Each has the classes, and behind them what is in shadow and what is lit.
+#define WEDGE_AREA_BITS 10u
+#define WEDGE_AREA_BINS 1024u
+#define WEDGE_AREA_NUMBERS 1026u
 #define WEDGE_AREA_STRIPES 64u
 
 WEDGE_SHARED_BEGIN
