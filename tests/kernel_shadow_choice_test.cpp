@@ -26,11 +26,12 @@ struct Gain {
     bool occluded = false;
 };
 
-/// Of all light, of which a part is known, and how much of that is seen: the rest is hidden by as much, times the part.
+/// Of all light, of which a part is known, and how much of that is seen: the rest is hidden by as much, times
+/// twice the part.
 glm::dvec3 leftOf(const glm::dvec3& all, const glm::dvec3& part, const glm::dvec3& seen)
 {
     const glm::dvec3 hidden = (part - seen) / glm::max(part, glm::dvec3(1e-30));
-    const glm::dvec3 known = part / glm::max(all, glm::dvec3(1e-30));
+    const glm::dvec3 known = glm::min(2.0 * part / glm::max(all, glm::dvec3(1e-30)), glm::dvec3(1));
     return seen + (1.0 - known * hidden) * (all - part);
 }
 

@@ -176,15 +176,19 @@ WEDGE_INLINE void addToLane(Vec3 irradiance, float weight, bool hidden, uint lan
     lit->shadowed[2][lane] += hidden ? 0.0f : all.z;
 }
 
-/// Of all light what is left where a part of it is known: the rest is hidden by as much, as far as that part is most of
-/// it, and else seen.
+/// Parts of all light of which this many make it: their share says of the rest as much as if they were all.
+#define WEDGE_PARTS_KNOWN 2.0f
+
+/// Of all light what is left where a part of it is known: the rest is hidden by as much if that part is half of all or
+/// more, and the less of it the smaller the part is. Few of many lights know little of the others.
 WEDGE_FN void shadowAsPart(const LitLanes* part, LitLanes* all)
 {
     for (uint channel = 0u; channel < 3u; ++channel) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const float of = part->unshadowed[channel][lane], left = part->shadowed[channel][lane];
             const float whole = all->unshadowed[channel][lane];
-            const float hidden = of > 0.0f ? (of - left) / of : 0.0f, known = of < whole ? of / whole : 1.0f;
+            const float hidden = of > 0.0f ? (of - left) / of : 0.0f,
+                        known = of < whole ? fmin(WEDGE_PARTS_KNOWN * of / whole, 1.0f) : 1.0f;
             const float some = left + (1.0f - known * hidden) * fmax(whole - of, 0.0f);
             all->shadowed[channel][lane] = left < of ? fmin(some, whole) : whole;
         }
