@@ -16,7 +16,6 @@ using device::PassKind;
 using graph::reads;
 using graph::updates;
 using graph::value;
-using graph::writes;
 
 namespace {
 
