@@ -147,7 +147,7 @@ std::string chooseShadows(render::Renderer& renderer, double seconds, render::Se
             break;
         }
     }
-    const std::string chosen = fmt::format("--shadow-lights {} --shadow-scale {}: about {:.3g} s",
+    std::string chosen = fmt::format("--shadow-lights {} --shadow-scale {}: about {:.3g} s",
         render::shadowLightsText(s), render::shadowScaleText(s), expected);
     if (expected > 1.05 * seconds) {
         warn(message("frames of few lights take longer", fmt::format("--shadow-time {}", seconds),
