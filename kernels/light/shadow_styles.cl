@@ -1,19 +1,11 @@
 // Hard shadows in a style: what of a surface lies how far from their edges, how much of the light is left there, and
 // what it brings. docs/stylized-shadows.md
+#include "core/float_order.h"
 #include "core/formats.h"
 #include "light/delta_light.h"
 #include "light/style_knob.h"
 #include "shared/filter_params.h"
 #include "shared/styled_shadows.h"
-
-/// Numbers that have the order of finite floats, from the least below 0 on; and back.
-WEDGE_FN uint orderOf(float value)
-{
-    const uint bits = as_uint(value);
-    return (bits >> 31) != 0u ? ~bits : bits | 0x80000000u;
-}
-
-WEDGE_FN float valueAt(uint order) { return as_float((order >> 31) != 0u ? order & 0x7fffffffu : ~order); }
 
 /// Classes of distances are those of the first bits of orderOf(); and within one of them those of the next bits.
 #define WEDGE_AREA_SHIFT (32u - WEDGE_AREA_BITS)
