@@ -162,7 +162,7 @@ struct ShadowSettings {
     WholeLight whole = WholeLight::Map;
     bool clamp = true; ///< of Subtractive: no light is below 0
     int chosen = 0; ///< lights that a pixel traces rays to, those that bring it most; 0: all
-    int blockSide = 1; ///< pixels along each side of the blocks of which one traces rays, a power of 2 up to 32
+    int blockSide = 1; ///< pixels along each side of the blocks of which one traces rays: 1, 2, 4 or 32
 
     bool operator==(const ShadowSettings&) const = default;
 };
