@@ -33,11 +33,11 @@ set_tests_properties(${oclgrind_frames} second_driver PROPERTIES SKIP_REGULAR_EX
 
 # The tests of the shared maths once more, under the sanitizers, whatever the build type: device code cannot be run
 # under them. With casts of floats out of range, which on devices give any value at all.
-add_executable(shared_maths_sanitized main.cpp kernel_rng_test.cpp kernel_maths_test.cpp kernel_bsdf_test.cpp
+add_executable(shared_maths_sanitized kernel_rng_test.cpp kernel_maths_test.cpp kernel_bsdf_test.cpp
                                       kernel_defocus_test.cpp kernel_camera_test.cpp kernel_packed_test.cpp)
 target_compile_options(shared_maths_sanitized PRIVATE -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
                                                       -fsanitize=address,undefined,float-cast-overflow)
 target_link_options(shared_maths_sanitized PRIVATE -fsanitize=address,undefined)
-target_link_libraries(shared_maths_sanitized PRIVATE doctest::doctest wedge_shared wedge_options)
+target_link_libraries(shared_maths_sanitized PRIVATE wedge_test_main wedge_shared wedge_options)
 add_test(NAME shared_maths_sanitized COMMAND shared_maths_sanitized)
 set_tests_properties(shared_maths_sanitized PROPERTIES TIMEOUT 600)
