@@ -172,6 +172,31 @@ bool ofStyles(const device::Device& device, const OfFrame& visit)
     return true;
 }
 
+/// The same of a soft shadow, with and without a lobe.
+bool ofSoftStyles(const device::Device& device, const OfFrame& visit)
+{
+    scene::Scene scene = scene::loadScene(WEDGE_SOURCE_DATA "/scenes/penumbra.toml");
+    scene::ShadowStyle style;
+    style.inflation = style.softness = style.abstraction = 0.1f;
+    scene.areaLights.front().styles = { style };
+    for (const bool lists : { false, true }) {
+        if (lists) {
+            scene.areaLights.front().styles.front().receivers = { "receiver" };
+            scene.areaLights.front().styles.front().penumbra = 0;
+            for (scene::Material& material : scene.materials) {
+                material.specular = glm::vec3(0.2f);
+            }
+        }
+        render::Renderer renderer(scene, device, {});
+        Settings settings = render::axisAligned(16);
+        settings.width = settings.height = 16;
+        if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool everyFrame(const device::Device& device, const OfFrame& visit)
 {
     for (const char* name : { "penumbra", "materials", "motion", "sky", "mirrors" }) {
@@ -185,7 +210,7 @@ bool everyFrame(const device::Device& device, const OfFrame& visit)
             }
         }
     }
-    return ofStyles(device, visit);
+    return ofStyles(device, visit) && ofSoftStyles(device, visit);
 }
 
 /// Calls visit() for frames that are filtered over time; one that is not antialiased sees no mirrors.

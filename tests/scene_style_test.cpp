@@ -43,7 +43,7 @@ TEST_CASE("styles of shadows: defaults, numbers, colours, several that share a l
     REQUIRE(two.pointLights.size() == 1);
     REQUIRE(two.pointLights[0].styles.size() == 2);
     CHECK(two.pointLights[0].styles[0]
-        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, glm::vec3(0, 0.5f, 1), false, {}, {}, {} });
+        == wedge::scene::ShadowStyle { 0.25f, -0.5f, 0.125f, 2.0f, glm::vec3(0, 0.5f, 1), 1.0f, false, {}, {}, {} });
     CHECK(two.pointLights[0].styles[1].brightness == wedge::scene::Knob<glm::vec3>(glm::vec3(0.5f)));
     // What changes nothing is none.
     CHECK(load(sun).directionalLights[0].styles.empty());
@@ -144,6 +144,12 @@ TEST_CASE("a scene knows whether styles alone have keys, and moments whether kno
     CHECK_FALSE(load(camera + moves + sun + keys).onlyStylesChange);
     CHECK_FALSE(
         load(camera + sun + "key = [{ time = 0 }, { time = 1, rotate = [0, 0, 1, 9] }]\n" + keys).onlyStylesChange);
+    // Of soft shadows nothing is kept.
+    const std::string quad =
+        "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n";
+    CHECK_FALSE(load(camera + quad + keys).onlyStylesChange);
+    CHECK_FALSE(load(camera + sun + keys + quad + keys).onlyStylesChange);
+    CHECK(load(camera + sun + keys + quad + "[[light.style]]\nsoftness = 1\n").onlyStylesChange);
     const auto changeOf = [](const std::string& text, double from, double to) {
         const scene_test::TemporaryFolder folder;
         wedge::scene::Sequence sequence(folder.write("s.toml", text));
@@ -216,8 +222,17 @@ TEST_CASE("what is wrong in a style is told with its place")
     says(style + "inflation = { at = [[0], [1], [0]] }\n", "at of light.style.inflation" + alike);
     says(style + "weight = { at = [1, 0, 0] }\n", "weight of light.style must be a number");
     const scene_test::TemporaryFolder folder;
-    const std::string quad = scene_test::errorOf(folder.write("s.toml",
-        "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n"
-            + style));
-    CHECK_MESSAGE(contains(quad, "style of light is of hard shadows, and those of a quad are soft"), quad);
+    const auto saysOfQuad = [&](const std::string& more, const std::string& expected) {
+        const std::string quad = scene_test::errorOf(folder.write("s.toml",
+            "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n"
+                + style + more));
+        CHECK_MESSAGE(contains(quad, expected), quad);
+    };
+    says(style + "penumbra = 0.5\n",
+        "penumbra of light.style is of soft shadows, and those of this light are hard: 0.5");
+    saysOfQuad("penumbra = 2\n", "penumbra of light.style is out of range: 2");
+    saysOfQuad("casters = 'a'\n", "casters of light.style are of hard shadows, and those of a quad are soft: 'a'");
+    saysOfQuad("softness = { at = [1, 1, 0] }\n", "softness of light.style goes by what throws the shadow");
+    saysOfQuad("key = [{ time = 0, brightness = { at = [0, 1, 0] } }]\n",
+        "brightness of light.style.key goes by what throws the shadow");
 }

@@ -16,10 +16,13 @@ public:
         std::vector<Term> out;
         const std::vector<OwnLight>& lights = scene.directLights().own;
         for (std::uint32_t i = 0; settings.integrator == Integrator::Path && i < lights.size(); ++i) {
-            const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1) };
+            const scene::AreaLight& quad = lights[i].quad;
+            const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1),
+                quad.styles, changerOfSeen(settings, quad) };
             out.push_back({ .name = light.name,
                 .part = Part::Direct,
                 .workUnits = static_cast<double>(settings.spp),
+                .changed = light.changer != nullptr,
                 .inPixels = [light](FrameBuilder& frame) { return std::make_unique<LightPixels>(frame, light); },
                 .inWaves =
                     [light](FrameBuilder& frame, const SampleShape& shape) {

@@ -18,6 +18,8 @@ using graph::writes;
 
 namespace {
 
+constexpr const char* composite = "frame/composite.cl";
+
 // What one launch over one tile may cost, too.
 constexpr std::uint32_t monteCarloSlice = 64;
 constexpr std::uint32_t secondPassSlice = 256;
@@ -32,6 +34,8 @@ LightPixels::LightPixels(FrameBuilder& frame, const TermLight& light)
             .part = frame.specular() ? shortPairs : shortFloats })
     , index_(light.number)
     , term_(light.name)
+    , styles_(light.styles)
+    , changer_(light.changer)
     , light_(light.light)
     , channels_(frame.specular() ? 2 : 1)
     , filter_(shadowFilterOf(frame, light_))
@@ -119,6 +123,9 @@ void LightPixels::addFiltered()
     // Not in that group: what is added up need not be there before it.
     shade(filtered.value, analysed());
     shade(value_, [state = state()](const Run&) { return !state->analysed; });
+    if (changer_ != nullptr) {
+        g_.only("change of light", analysed(), [&] { changeSeen(filtered.value); });
+    }
 }
 
 void LightPixels::widened()
@@ -147,8 +154,6 @@ void LightPixels::filter(Gathered& filtered)
 
 void LightPixels::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
 {
-    const graph::Argument p = f_.rectangle(analysisParams());
-    const Surfaces& s = f_.surfaces;
     const Arguments values = graph::together("values",
         { reads("value", shown), reads("noisy", value_),
             f_.analysed() ? reads("parts", parts_) : graph::absent("parts", f_.specular() ? shortPairs : shortFloats),
@@ -158,17 +163,39 @@ void LightPixels::shade(const graph::Handle<Value>& shown, const std::function<b
             { updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
                 updates("deviation", direct.deviation) });
     };
-    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addDiffuse" },
-        joined({ p, sampleParams(), light(), quadratureOf(f_, index_) }, places(s),
-            Arguments { reads("diffuse", s.diffuse) }, values, sum()),
-        condition);
+    f_.blocks(
+        "composite", PassKind::Composite, { composite, "addDiffuse" }, joined(ofMatt(), values, sum()), condition);
     if (f_.specular()) {
-        f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addSpecular" },
-            joined({ p, sampleParams(), light(), value("frame", f_.wholeFrame()),
-                       value("directions", lobeDirections(s_.spp)), quadratureOf(f_, index_) },
-                places(s), Arguments { reads("gloss", s.gloss), reads("specular", s.specular) }, values, sum()),
+        f_.blocks("composite", PassKind::Composite, { composite, "addSpecular" }, joined(ofLobes(), values, sum()),
             condition);
     }
+}
+
+void LightPixels::changeSeen(const graph::Handle<Value>& shown)
+{
+    const graph::Handle<Value> more = changer_->changeSeen(f_, { light_, styles_, shown });
+    graph::Handle<Radiance>& change = f_.totals.direct.change;
+    f_.blocks("composite", PassKind::Composite, { composite, "addDiffuseChange" },
+        joined(ofMatt(), Arguments { reads("more", more), updates("change", change) }));
+    if (f_.specular()) {
+        f_.blocks("composite", PassKind::Composite, { composite, "addSpecularChange" },
+            joined(ofLobes(), Arguments { reads("more", more), updates("change", change) }));
+    }
+}
+
+Arguments LightPixels::ofMatt() const
+{
+    const Surfaces& s = f_.surfaces;
+    return joined({ f_.rectangle(analysisParams()), sampleParams(), light(), quadratureOf(f_, index_) }, places(s),
+        Arguments { reads("diffuse", s.diffuse) });
+}
+
+Arguments LightPixels::ofLobes() const
+{
+    const Surfaces& s = f_.surfaces;
+    return joined({ f_.rectangle(analysisParams()), sampleParams(), light(), value("frame", f_.wholeFrame()),
+                      value("directions", lobeDirections(s_.spp)), quadratureOf(f_, index_) },
+        places(s), Arguments { reads("gloss", s.gloss), reads("specular", s.specular) });
 }
 
 } // namespace wedge::render

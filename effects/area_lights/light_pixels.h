@@ -41,6 +41,11 @@ private:
     void widened();
     void filter(Gathered& filtered);
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const graph::Run&)>& condition);
+    /// Adds to the sum's change what an effect makes of what is seen.
+    void changeSeen(const graph::Handle<Value>& shown);
+    /// What shading goes by of matt surfaces, and of lobes.
+    Arguments ofMatt() const;
+    Arguments ofLobes() const;
 
     LightSamples lightSamples() const { return { sums_, value_, taken_ }; }
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), light_, g_.image()); }
@@ -53,6 +58,8 @@ private:
 
     std::uint32_t index_;
     std::string term_;
+    std::span<const scene::ShadowStyle> styles_;
+    const Effect* changer_; ///< of what is seen; null: nothing changes it
     shared::AreaLight light_;
     std::uint32_t channels_; ///< of what is seen: diffuse, and where something is specular that, too
     std::unique_ptr<ShadowFilter> filter_;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "host/render/effect.h"
 #include "host/render/receiver_set.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/light.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace wedge::render {
@@ -15,6 +17,8 @@ struct TermLight {
     std::uint32_t number = 0; ///< of DirectLights::own
     shared::AreaLight light {};
     std::string name; ///< of its term
+    std::span<const scene::ShadowStyle> styles; ///< the prepared scene's
+    const Effect* changer = nullptr; ///< of what is seen of it
 };
 
 /// What the analysis of a light needs besides where pixels lie.

@@ -88,14 +88,48 @@ std::vector<StyleGroup> groupsOf(const StyledLight& light)
     return groups;
 }
 
-void requireStylable(const Settings& settings, const scene::Scene& scene)
+namespace {
+
+/// Throws where soft shadows are to be drawn in a style, and frames do not filter what is seen of each such light.
+void requireSoftStylable(const Settings& settings, const PreparedScene& scene)
+{
+    const DirectLights& lights = scene.directLights();
+    const auto styled = [](const scene::AreaLight& light) { return !light.styles.empty(); };
+    const auto name = [](const scene::AreaLight& light) {
+        return fmt::format("style of light '{}'", light.name.empty() ? "quad" : light.name);
+    };
+    for (const std::uint32_t number : lights.sharedQuads) {
+        if (styled(scene.areaLights[number])) {
+            throw UsageError(fmt::format("only the {} strongest area lights have styles", mostOwnTerms),
+                name(scene.areaLights[number]), "leave it out, or add --no-style");
+        }
+    }
+    const auto light = std::ranges::find_if(scene.areaLights, styled);
+    if (settings.method != Method::AxisAligned || settings.filtering == Filtering::None
+        || settings.shading == Shading::Inside) {
+        throw UsageError("styles of soft shadows are drawn of filtered shadows alone", name(*light),
+            "choose --method aaf without --filter none and --falloff inside, or add --no-style");
+    }
+}
+
+} // namespace
+
+void requireStylable(const Settings& settings, const PreparedScene& scene)
 {
     const std::vector<StyledLight> lights = styledLights(settings, scene);
-    if (settings.integrator == Integrator::Path && !lights.empty() && isDistributed(settings, scene)) {
+    const bool soft = settings.styles
+        && std::ranges::any_of(scene.areaLights, [](const scene::AreaLight& light) { return !light.styles.empty(); });
+    if (settings.integrator != Integrator::Path || (lights.empty() && !soft)) {
+        return;
+    }
+    if (isDistributed(settings, scene)) {
         throw UsageError("styles of shadows are of frames through a pinhole where nothing moves, neither antialiased "
                          "nor progressive",
-            fmt::format("style of light {}", lights.front().called),
+            lights.empty() ? "style of a quad" : fmt::format("style of light {}", lights.front().called),
             "add --no-style, or leave out --antialias, --progressive, the lens and what moves");
+    }
+    if (soft) {
+        requireSoftStylable(settings, scene);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
 
@@ -36,7 +37,8 @@ struct StyleGroup {
 /// In the order of the first style of each.
 std::vector<StyleGroup> groupsOf(const StyledLight& light);
 
-/// Throws UsageError where there are any and pixels have several receivers: shadows are drawn of one point a pixel.
-void requireStylable(const Settings& settings, const scene::Scene& scene);
+/// Throws UsageError where shadows are to be drawn in a style and frames of these settings cannot: pixels have several
+/// receivers; or of soft ones, they are not filtered each by itself.
+void requireStylable(const Settings& settings, const PreparedScene& scene);
 
 } // namespace wedge::render

@@ -1,6 +1,8 @@
 #include "effects/styled_shadows/styled_shadows.h"
 
 #include "effects/styled_shadows/object_list.h"
+#include "effects/styled_shadows/shadow_distances.h"
+#include "effects/styled_shadows/soft_styles.h"
 #include "effects/styled_shadows/style_knobs.h"
 #include "effects/styled_shadows/styled_lights.h"
 #include "host/graph/lists.h"
@@ -25,21 +27,7 @@ using graph::writes;
 namespace {
 
 constexpr const char* edgesProgram = "light/shadow_edges.cl";
-constexpr const char* distanceProgram = "light/shadow_distance.cl";
 constexpr const char* stylesProgram = "light/shadow_styles.cl";
-
-struct Matte { }; ///< WEDGE_MATTE_*
-struct Edges { }; ///< pieces of shadows' edges, and boxes around them
-
-/// Blocks of 16 pixels that are taken one after the other.
-constexpr std::size_t blocksOfTile = 4;
-
-/// Such blocks in a row of a window, which for that begins and ends at them.
-std::size_t blocksAlong(const Window& window)
-{
-    constexpr int side = WEDGE_BLOCK_PIXELS;
-    return static_cast<std::size_t>((window.x1 - window.x0 / side * side + side - 1) / side);
-}
 
 /// The passes of those of a light's styles that have the same casters.
 class StyledShadow {
@@ -80,22 +68,6 @@ private:
                 value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) });
     }
 
-    Arguments surfaces(graph::Reach reach = {}) const
-    {
-        const Surfaces& s = f_.surfaces;
-        return graph::together("surfaces",
-            { reads("position", s.position, reach), reads("normal", s.normal, reach),
-                reads("objectId", s.objectId, reach), reads("pixelSize", s.pixelSize, reach) });
-    }
-
-    /// Of the whole image.
-    shared::AnalysisParams image() const
-    {
-        shared::AnalysisParams p = f_.analysisParams();
-        setRectangle(p, f_.graph.image());
-        return p;
-    }
-
     void matte()
     {
         matte_ = f_.graph.plane<Matte>("shadow's matte", graph::floats);
@@ -117,70 +89,13 @@ private:
             std::move(passes), [](const Launch&) { return 1.0; });
     }
 
-    /// The pieces of the shadow's edge, and boxes around them.
-    Arguments edges() const
-    {
-        const auto tilesAlong = [](int pixels) {
-            return std::max((static_cast<std::uint32_t>(pixels) + WEDGE_EDGE_TILE - 2) / WEDGE_EDGE_TILE, 1u);
-        };
-        const PlaneLayout& layout = f_.layout;
-        const std::uint32_t tiles =
-            tilesAlong(static_cast<int>(layout.width)) * tilesAlong(static_cast<int>(layout.height));
-        const std::uint32_t capacity = tiles * WEDGE_EDGE_TILE * WEDGE_EDGE_TILE;
-        auto counts = f_.graph.list<Count>("edges of tiles", graph::counts, tiles);
-        const Arguments cells = joined({ value("p", image()), graph::unlessEmpty("tiles", tiles) }, surfaces(),
-            Arguments { reads("matte", matte_) });
-        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "countEdges" }, tiles,
-            joined(cells, Arguments { writes("counts", counts) }));
-        const graph::ListPlaces places =
-            graph::placeBlocks(f_.graph, "edges of shadows", edgesProgram, counts, capacity);
-        auto edges =
-            f_.graph.list<Edges>("edges of shadows", graph::floats, std::uint64_t { capacity } * WEDGE_EDGE_FLOATS);
-        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "listEdges" }, tiles,
-            joined(cells,
-                Arguments {
-                    occluder(), reads("first", places.first), value("capacity", capacity), writes("edges", edges) }));
-        const std::uint32_t chunks = capacity / WEDGE_EDGE_CHUNK, room = (chunks + 15) / 16 * 16; // for vectors of them
-        auto boxes = f_.graph.list<Edges>("boxes around edges", graph::floats, std::uint64_t { room } * WEDGE_EDGE_BOX);
-        Arguments listed { reads("edges", edges), reads("listed", places.listed), graph::unlessEmpty("most", capacity),
-            value("room", room) };
-        f_.items("edges of shadows", PassKind::Analysis, { edgesProgram, "boundEdges" }, chunks,
-            joined(listed, Arguments { writes("boxes", boxes) }));
-        listed.push_back(reads("boxes", boxes));
-        return listed;
-    }
-
     void distances()
     {
-        const Arguments facing = graph::together(
-            "surfaces", { reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) });
-        distance_ = f_.graph.plane<Metres>("distance to shadows' edges", graph::floats);
-        f_.zero(distance_);
-        if (varies_) {
-            away_ = f_.graph.plane<Metres>("what hides a light, around shadows", graph::floats);
-            f_.zero(away_);
-        }
-        // All edges may be near all pixels: it can take seconds, and be stopped.
-        f_.graph.add({ .name = "distances to shadows' edges",
-            .kind = PassKind::Analysis,
-            .kernel = { distanceProgram, "shadowDistance" },
-            .arguments =
-                joined({ f_.rectangle(f_.analysisParams()) }, facing, Arguments { reads("matte", matte_), occluder() },
-                    graph::together(
-                        "edges", joined(edges(), Arguments { value("published", f_.settings.published ? 1u : 0u) })),
-                    Arguments { value("largest", largest_), value("farthest", farthest_),
-                        updates("distance", distance_), varies_ ? updates("away", away_) : graph::absent("away") }),
-            .domain = graph::Domain::Tiles,
-            .count =
-                [](const Launch& launch) {
-                    const Window& w = launch.window;
-                    return blocksAlong(w) * static_cast<std::size_t>(w.height()) / blocksOfTile + 1;
-                },
-            .itemsOfTile = blocksOfTile,
-            .stoppable = true });
+        const ShadowDistances found = shadowDistances(f_, matte_, occluder_, farthest_, largest_);
+        distance_ = found.distance;
+        away_ = found.away;
     }
 
-    graph::Argument occluder() const { return varies_ ? reads("occluder", occluder_) : graph::absent("occluder"); }
     /// How far away what hides the light is, for a style that goes by it: at a pixel, or around its shadow.
     graph::Argument away(const scene::ShadowStyle& style) const
     {
@@ -209,59 +124,14 @@ private:
         }
     }
 
-    /// What a style goes by, and where in it the shadow's edge is.
-    struct Smoothed {
-        graph::Handle<Metres> distance;
-        graph::Handle<Metres> zeros; ///< the first of its numbers; of no graph: none but 0
-    };
-
-    Smoothed smoothed(std::size_t of)
+    SmoothedDistance smoothed(std::size_t of)
     {
         const scene::ShadowStyle& style = light_.styles[of];
-        Smoothed out { distance_, {} };
         if (!(mostOf(abstractionOf(style), farthest_) > 0.0f)) {
-            return out;
+            return { distance_, {} };
         }
-        out.distance = f_.graph.plane<Metres>("smoothed distances", graph::floats);
-        f_.blocks("blur of shadows' edges", PassKind::Filter, { distanceProgram, "smoothDistance" },
-            joined({ f_.frame() }, surfaces(graph::wholeImage),
-                Arguments { reads("distance", distance_, graph::wholeImage), away(style),
-                    knob("deviation", of, abstractionOf), value("largest", largest_),
-                    writes("smoothed", out.distance) }));
-        if (style.keepArea) {
-            out.zeros = zerosOf(out.distance);
-        }
-        return out;
-    }
-
-    /// The distance at which as much is in shadow as was: its class, and then itself within that.
-    graph::Handle<Metres> zerosOf(const graph::Handle<Metres>& distance)
-    {
-        const graph::Handle<Metres> found = zerosWithin(distance, graph::absent("found"));
-        return zerosWithin(distance, reads("found", found));
-    }
-
-    graph::Handle<Metres> zerosWithin(const graph::Handle<Metres>& distance, const graph::Argument& found)
-    {
-        auto areas = f_.graph.list<Edges>(
-            "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
-        f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "countAreas" }, WEDGE_AREA_STRIPES,
-            { value("p", image()), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), found,
-                reads("distance", distance), reads("matte", matte_), reads("pixelSize", f_.surfaces.pixelSize),
-                writes("areas", areas) });
-        auto sums = f_.graph.list<Edges>("areas in shadow, together", graph::floats, WEDGE_AREA_NUMBERS);
-        f_.graph.add({ .name = "areas of shadows",
-            .kind = PassKind::Analysis,
-            .kernel = { stylesProgram, "sumAreas" },
-            .arguments = { graph::unlessEmpty("numbers", WEDGE_AREA_NUMBERS),
-                graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), reads("areas", areas), writes("sums", sums) },
-            .domain = graph::Domain::Items,
-            .count = [](const Launch&) { return std::size_t { WEDGE_AREA_NUMBERS }; },
-            .mostItems = WEDGE_AREA_NUMBERS });
-        auto zeros = f_.graph.list<Metres>("edges of smoothed shadows", graph::floats, 2);
-        f_.items("areas of shadows", PassKind::Analysis, { stylesProgram, "keepArea" }, 1,
-            { graph::unlessEmpty("items", 1), found, reads("sums", sums), writes("zeros", zeros) });
-        return zeros;
+        return smoothedDistance(
+            f_, matte_, distance_, { away(style), knob("deviation", of, abstractionOf), largest_, style.keepArea });
     }
 
     void addStyle(std::size_t style, float weight)
@@ -271,7 +141,7 @@ private:
         const auto left = [](int channel) {
             return [channel](const scene::ShadowStyle& s) { return brightnessOf(s, channel); };
         };
-        const Smoothed of = asIs ? Smoothed() : smoothed(style);
+        const SmoothedDistance of = asIs ? SmoothedDistance() : smoothed(style);
         Arguments passes = joined(
             { f_.rectangle(f_.analysisParams()), asIs ? reads("distance", matte_) : reads("distance", of.distance),
                 of.zeros.graph != 0 ? reads("zeros", of.zeros) : graph::absent("zeros"), away(light_.styles[style]),
@@ -348,11 +218,11 @@ public:
 
     std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
     {
+        requireStylable(settings, scene);
         const std::vector<StyledLight> lights = styledLights(settings, scene);
         if (settings.integrator != Integrator::Path || lights.empty()) {
             return std::nullopt;
         }
-        requireStylable(settings, scene);
         std::size_t shadows = 0; // rays a pixel
         for (const StyledLight& light : lights) {
             shadows += groupsOf(light).size();
@@ -363,6 +233,15 @@ public:
         return Unfiltered {
             .name = "styled shadows", .workUnits = static_cast<double>(shadows), .changes = changes, .sample = sample
         };
+    }
+
+    bool changesSeen(const Settings& settings, const scene::AreaLight& light) const override
+    {
+        return settings.styles && !light.styles.empty();
+    }
+    graph::Handle<Value> changeSeen(FrameBuilder& frame, const SeenLight& seen) const override
+    {
+        return softStyles(frame, seen);
     }
 
     std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene* scene) const override

@@ -26,6 +26,16 @@ void registerEffect(std::unique_ptr<const Effect> effect)
     registry().push_back(std::move(effect));
 }
 
+const Effect* changerOfSeen(const Settings& settings, const scene::AreaLight& light)
+{
+    for (const auto& effect : effects()) {
+        if (effect->changesSeen(settings, light)) {
+            return effect.get();
+        }
+    }
+    return nullptr;
+}
+
 std::vector<Term> frameTerms(const Settings& settings, const PreparedScene& scene)
 {
     std::vector<Term> terms;

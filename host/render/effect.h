@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Term {
     Part part = Part::Direct;
     double workUnits = 0; ///< of a pixel, about as many as it has rays
     bool gathersVariance = false; ///< it adds to Sum::variance of its part
+    bool changed = false; ///< what is seen of its light is, Effect::changeSeen()
     bool ofLobes = false; ///< where the pixels are the receivers, those that reflect nothing specularly have none of it
     /// What it is where the pixels are the receivers, and where pixels have several.
     std::function<std::unique_ptr<PixelTerm>(FrameBuilder&)> inPixels;
@@ -68,6 +70,13 @@ struct EffectOption {
     std::function<SceneChange(const std::string&)> parse;
 };
 
+/// What is seen of an area light from the receivers, pixels, once that is filtered.
+struct SeenLight {
+    shared::AreaLight light {};
+    std::span<const scene::ShadowStyle> styles; ///< of its shadows
+    graph::Handle<Value> value; ///< of matt surfaces and, in frames that have such, of lobes: 0 to 1
+};
+
 /// Something that light does: what it brings to a frame of given settings. Frames know effects by this alone.
 class Effect {
 public:
@@ -76,6 +85,10 @@ public:
     virtual std::string name() const = 0; ///< no other effect's
     virtual std::vector<Term> terms(const Settings&, const PreparedScene&) const { return {}; }
     virtual std::optional<Unfiltered> unfiltered(const Settings&, const PreparedScene&) const { return std::nullopt; }
+    /// Whether it draws other shadows than there are of an area light.
+    virtual bool changesSeen(const Settings&, const scene::AreaLight&) const { return false; }
+    /// Declares the passes that do: planes to be added to what is seen, R, G and B of matt surfaces and then of lobes.
+    virtual graph::Handle<Value> changeSeen(FrameBuilder&, const SeenLight&) const { return {}; }
 
     /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
     virtual std::string absence(Part) const { return ""; }
@@ -98,6 +111,9 @@ public:
 
 /// All effects that there are, in the order in which frames have them.
 const std::vector<std::unique_ptr<const Effect>>& effects();
+
+/// The effect that changes what is seen of this light; null where none does.
+const Effect* changerOfSeen(const Settings& settings, const scene::AreaLight& light);
 
 /// Adds one. Not while anybody renders.
 void registerEffect(std::unique_ptr<const Effect> effect);

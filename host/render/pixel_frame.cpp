@@ -129,7 +129,8 @@ void PixelFrame::addTerms(Part part)
         sum.variance = graph_.plane<Value>("gathered variance", shortFloats);
         f_.zero(sum.variance);
     }
-    if (std::ranges::any_of(terms_, [&](const Term& t) { return t.part == part && isFiltered(settings_, t.target); })) {
+    if (std::ranges::any_of(
+            terms_, [&](const Term& t) { return t.part == part && (t.changed || isFiltered(settings_, t.target)); })) {
         sum.change = graph_.plane<Radiance>("change by filters of terms", graph::vectors);
         f_.zero(sum.change);
     }

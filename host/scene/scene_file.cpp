@@ -15,10 +15,12 @@ bool hasKeys(const std::vector<ShadowStyle>& styles)
     return std::ranges::any_of(styles, [](const ShadowStyle& style) { return !style.keys.empty(); });
 }
 
-bool stylesHaveKeys(const Scene& scene)
+/// Of hard shadows, and of no others: how soft ones are drawn changes what frames keep.
+bool hardStylesHaveKeys(const Scene& scene)
 {
     const auto has = [](const auto& light) { return hasKeys(light.styles); };
-    return std::ranges::any_of(scene.pointLights, has) || std::ranges::any_of(scene.directionalLights, has);
+    return (std::ranges::any_of(scene.pointLights, has) || std::ranges::any_of(scene.directionalLights, has))
+        && std::ranges::none_of(scene.areaLights, has);
 }
 
 /// All but the geometry.
@@ -63,7 +65,7 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     brought_ = lightsOfExtensions(scene);
     scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     scene.textures = textures_.take();
-    scene.onlyStylesChange = stylesHaveKeys(scene) && !hasOtherKeys();
+    scene.onlyStylesChange = hardStylesHaveKeys(scene) && !hasOtherKeys();
 }
 
 bool SceneFile::hasOtherKeys()

@@ -79,9 +79,6 @@ FileVector readQuadShape(TableReader& table, AreaLight& light)
 
 void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings& warnings)
 {
-    if (table.has("style"))
-        table.fail("style", "is of hard shadows, and those of a quad are soft", "type = 'quad'",
-            "leave it out, or choose type point or directional");
     AreaLight light;
     light.name = table.text("name").value_or("");
     const FileVector centre = readQuadShape(table, light);
@@ -99,6 +96,7 @@ void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings&
         std::swap(light.halfU, light.halfV); // so that it emits to the side that is mirrored, too
     light.twoSided = table.boolean("two_sided").value_or(light.twoSided);
     light.visible = table.boolean("visible").value_or(light.visible);
+    light.styles = readStyles(table, ShadowKind::Soft, scene.shutterOpen);
     checkAreaLight(light, table.where("type"), warnings);
     const float side = std::min(glm::length(light.halfU), glm::length(light.halfV));
     warnOfRounding(placed.exact, lightOff * double { side }, table.where("type"), "light's middle", warnings);
@@ -111,7 +109,7 @@ void readPoint(TableReader& table, const LightPose& pose, Scene& scene)
     light.position = settled(pose.point(readPlace(table, "position")));
     light.intensity = table.require("intensity", table.colour("intensity"));
     light.name = table.text("name").value_or("");
-    light.styles = readStyles(table, scene.shutterOpen);
+    light.styles = readStyles(table, ShadowKind::Hard, scene.shutterOpen);
     scene.pointLights.push_back(light);
 }
 
@@ -124,7 +122,7 @@ void readDirectional(TableReader& table, const LightPose& pose, Scene& scene)
     light.direction = glm::vec3(glm::normalize(pose.vector(direction)));
     light.irradiance = table.require("irradiance", table.colour("irradiance"));
     light.name = table.text("name").value_or("");
-    light.styles = readStyles(table, scene.shutterOpen);
+    light.styles = readStyles(table, ShadowKind::Hard, scene.shutterOpen);
     scene.directionalLights.push_back(light);
 }
 

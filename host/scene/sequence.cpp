@@ -33,7 +33,7 @@ bool equal(const Geometry& a, const Geometry& b)
 
 bool equal(const AreaLight& a, const AreaLight& b)
 {
-    return a.centre == b.centre && a.halfU == b.halfU && a.halfV == b.halfV;
+    return a.centre == b.centre && a.halfU == b.halfU && a.halfV == b.halfV && a.styles == b.styles;
 }
 bool equal(const PointLight& a, const PointLight& b)
 {

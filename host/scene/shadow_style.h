@@ -24,7 +24,7 @@ struct Knob {
     bool operator==(const Knob&) const = default;
 };
 
-/// How a light's hard shadow is drawn; docs/stylized-shadows.md has the equations. A light may have several, each of a
+/// How a light's shadow is drawn; docs/stylized-shadows.md has the equations. A light may have several, each of a
 /// share of its light.
 struct ShadowStyle {
     float weight = 1.0f; ///< its share; those of a light add up to 1
@@ -32,6 +32,7 @@ struct ShadowStyle {
     Knob<float> softness; ///< metres over which the edge goes from dark to bright
     Knob<float> abstraction; ///< metres: standard deviation of what smooths the shadow's outline
     Knob<glm::vec3> brightness; ///< of the light, what is left in shadow, 0 to 1
+    float penumbra = 1.0f; ///< of soft shadows: how wide the penumbra is beside what it was, 0 to 1
     bool keepArea = true; ///< a smoothed shadow is as large as before
     /// Names of objects, or what they begin with up to a slash: those whose shadows are drawn so, and those on which
     /// they are. Empty: all.

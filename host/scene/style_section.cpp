@@ -79,6 +79,25 @@ void readKnobs(TableReader& table, ShadowStyle& style)
     style.softness = readLength(table, "softness", 0.0, style.softness);
     style.abstraction = readLength(table, "abstraction", 0.0, style.abstraction);
     style.brightness = readBrightness(table, style.brightness);
+    style.penumbra = static_cast<float>(table.number("penumbra", 0.0, 1.0).value_or(double { style.penumbra }));
+}
+
+/// Throws for what a table says that is not of such shadows.
+void checkKind(TableReader& table, const ShadowStyle& style, ShadowKind kind)
+{
+    if (kind == ShadowKind::Hard && table.has("penumbra"))
+        table.fail("penumbra", "is of soft shadows, and those of this light are hard",
+            fmt::format("{:g}", style.penumbra), "leave it out, or give a quad the style");
+    if (kind == ShadowKind::Hard)
+        return;
+    for (const char* key : { "inflation", "softness", "abstraction", "brightness" }) {
+        if (table.isTable(key))
+            table.fail(
+                key, "goes by what throws the shadow, which soft shadows do not know", "{ at = ... }", "give a number");
+    }
+    if (!style.casters.empty())
+        table.fail("casters", "are of hard shadows, and those of a quad are soft",
+            fmt::format("'{}'", style.casters.front()), "leave them out, or choose type point or directional");
 }
 
 template <class T>
@@ -90,13 +109,14 @@ Knob<T> between(const Knob<T>& a, const Knob<T>& b, double weight)
 }
 
 /// Reads a style's keys, [[light.style.key]], and gives it the knobs that it has at that time.
-void readKeys(TableReader& table, ShadowStyle& style, double time)
+void readKeys(TableReader& table, ShadowStyle& style, ShadowKind kind, double time)
 {
     std::vector<double> times;
     std::vector<ShadowStyle> keys;
     for (TableReader& key : table.tables("key")) {
         times.push_back(readKeyTime(key, times));
         readKnobs(key, keys.emplace_back(style));
+        checkKind(key, keys.back(), kind);
         key.finish();
     }
     if (keys.empty())
@@ -107,11 +127,12 @@ void readKeys(TableReader& table, ShadowStyle& style, double time)
     style.softness = between(a.softness, b.softness, span.weight);
     style.abstraction = between(a.abstraction, b.abstraction, span.weight);
     style.brightness = between(a.brightness, b.brightness, span.weight);
+    style.penumbra = a.penumbra + (b.penumbra - a.penumbra) * static_cast<float>(span.weight);
     style.keys = std::move(keys);
 }
 
 /// One [[light.style]] at that time. several: it has to say what its share is.
-ShadowStyle readStyle(TableReader& table, bool several, double time)
+ShadowStyle readStyle(TableReader& table, ShadowKind kind, bool several, double time)
 {
     ShadowStyle style;
     const std::optional<double> weight = table.number("weight", 0.0, 1.0);
@@ -120,7 +141,8 @@ ShadowStyle readStyle(TableReader& table, bool several, double time)
     style.casters = table.names("casters");
     style.receivers = table.names("receivers");
     readKnobs(table, style);
-    readKeys(table, style, time);
+    checkKind(table, style, kind);
+    readKeys(table, style, kind, time);
     table.finish();
     return style;
 }
@@ -141,19 +163,19 @@ bool changesNothing(const ShadowStyle& style)
 {
     const Knob<float> none;
     return style.keys.empty() && style.inflation == none && style.softness == none && style.abstraction == none
-        && style.brightness == Knob<glm::vec3>();
+        && style.brightness == Knob<glm::vec3>() && style.penumbra == 1.0f;
 }
 
 } // namespace
 
-std::vector<ShadowStyle> readStyles(TableReader& light, double time)
+std::vector<ShadowStyle> readStyles(TableReader& light, ShadowKind kind, double time)
 {
     std::vector<TableReader> tables = light.tables("style");
     std::vector<ShadowStyle> styles;
     styles.reserve(tables.size());
     double sum = 0.0;
     for (TableReader& table : tables) {
-        styles.push_back(readStyle(table, tables.size() > 1, time));
+        styles.push_back(readStyle(table, kind, tables.size() > 1, time));
         sum += double { styles.back().weight };
     }
     if (!styles.empty() && !(std::abs(sum - 1.0) <= weightsOff))

@@ -30,6 +30,24 @@ WEDGE_FN void addDeviation(__global float* plane, uint size, int i, float16 devi
     addShorts(plane, size, i, deviation * shown);
 }
 
+/// What matt surfaces reflect of all of a light, lanes `surface`, kd: their reflectance.
+WEDGE_FN Vec3x16 reflectedDiffuse(SampleParams params, AreaLight light, Vec3x16 at, Vec3x16 facing, Vec3x16 kd,
+    __global const float* nodes, int16 surface)
+{
+    float16 shading = (float16)(1.0f);
+    if (params.shading == WEDGE_SHADING_SEPARATE) {
+        shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
+    } else if (params.shading == WEDGE_SHADING_RATIO) {
+        shading = unshadowedDiffuse(light, mattReceivers(at, facing), nodes, surface);
+    }
+    shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
+    Vec3x16 reflected;
+    reflected.x = shading * kd.x * light.power.x;
+    reflected.y = shading * kd.y * light.power.y;
+    reflected.z = shading * kd.z * light.power.z;
+    return reflected;
+}
+
 /// One light's diffuse reflection.
 /// in      value: filtered; noisy: not filtered; parts: of frames with a first pass (params.firstPass) the same of the
 ///         first of two parts of the samples, in 16 bits each; nodes: of the quadratures, (coordinate, weight) pairs;
@@ -46,20 +64,8 @@ __kernel void addDiffuse(PARAMETERS)
     if (!any(surface)) {
         return;
     }
-    const Vec3x16 at = loadVecBlock(position, size, i);
-    const Vec3x16 facing = loadVecBlock(normal, size, i);
-    float16 shading = (float16)(1.0f);
-    if (params.shading == WEDGE_SHADING_SEPARATE) {
-        shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
-    } else if (params.shading == WEDGE_SHADING_RATIO) {
-        shading = unshadowedDiffuse(light, mattReceivers(at, facing), nodes, surface);
-    }
-    shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
-    const Vec3x16 kd = loadVecBlock(diffuse, size, i);
-    Vec3x16 reflected;
-    reflected.x = shading * kd.x * light.power.x;
-    reflected.y = shading * kd.y * light.power.y;
-    reflected.z = shading * kd.z * light.power.z;
+    const Vec3x16 reflected = reflectedDiffuse(params, light, loadVecBlock(position, size, i),
+        loadVecBlock(normal, size, i), loadVecBlock(diffuse, size, i), nodes, surface);
     addBlock(direct, size, i, loadBlock(value, i), reflected);
     const float16 mean = loadBlock(noisy, i);
     addBlock(directNoisy, size, i, mean, reflected);
@@ -83,6 +89,24 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
     return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
 }
 
+/// What the lobes of a block at (x, y) reflect of all of a light, lanes `mirrors`, ks: their reflectance.
+WEDGE_FN Vec3x16 reflectedSpecular(SampleParams params, AreaLight light, FrameParams frame, uint x, uint y,
+    uint directions, Vec3x16 at, Vec3x16 facing, Vec3x16 ks, uint16 gloss, __global const float* nodes, int16 mirrors)
+{
+    const Receivers16 r = glossyReceivers(at, facing, unit16(sub16(splat3(frame.eye), at)), gloss);
+    LobeDirections lobes;
+    lobes.pixel = (x + (uint16)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u)) | (y << 16);
+    lobes.first = (uint16)(0u);
+    lobes.count = directions;
+    lobes.seed = frame.seed;
+    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors, lobes) : (float16)(0.0f);
+    Vec3x16 reflected;
+    reflected.x = shading * ks.x * light.power.x;
+    reflected.y = shading * ks.y * light.power.y;
+    reflected.z = shading * ks.z * light.power.z;
+    return reflected;
+}
+
 /// One light's specular reflection; value, noisy and parts hold the specular term in their second planes. directions:
 /// of each lobe that is too sharp for a rule
 #include "pass/addSpecular.h"
@@ -96,19 +120,8 @@ __kernel void addSpecular(PARAMETERS)
     if (!any(mirrors)) {
         return;
     }
-    const Vec3x16 at = loadVecBlock(position, size, i);
-    const Receivers16 r =
-        glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadIdBlock(gloss, i));
-    LobeDirections lobes;
-    lobes.pixel = (x + (uint16)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u)) | (y << 16);
-    lobes.first = (uint16)(0u);
-    lobes.count = directions;
-    lobes.seed = frame.seed;
-    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors, lobes) : (float16)(0.0f);
-    Vec3x16 reflected;
-    reflected.x = shading * ks.x * light.power.x;
-    reflected.y = shading * ks.y * light.power.y;
-    reflected.z = shading * ks.z * light.power.z;
+    const Vec3x16 reflected = reflectedSpecular(params, light, frame, x, y, directions, loadVecBlock(position, size, i),
+        loadVecBlock(normal, size, i), ks, loadIdBlock(gloss, i), nodes, mirrors);
     // What misses hold is not looked at: 0 times a NaN would let it in.
     addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
     const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
@@ -116,6 +129,53 @@ __kernel void addSpecular(PARAMETERS)
     if (HAS_parts && params.firstPass > 0u) {
         const float16 ofPart = mirrors ? loadShortsBlock(PLANE_parts, size, i, 1u) : (float16)(0.0f);
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+    }
+}
+#endif
+
+/// Adds what changes of what is seen, of each colour, times the shading, to a change of radiance.
+WEDGE_FN void addChangeBlock(
+    __global float* change, uint size, int i, __global const float* more, int16 lanes, Vec3x16 reflected)
+{
+    const float16 none = (float16)(0.0f);
+    Vec3x16 light = loadVecBlock(more, size, i);
+    light.x = lanes ? light.x * reflected.x : none;
+    light.y = lanes ? light.y * reflected.y : none;
+    light.z = lanes ? light.z * reflected.z : none;
+    addBlock(change, size, i, (float16)(1.0f), light);
+}
+
+/// One light's diffuse reflection, as far as what is seen of it changes.
+/// in      more: R G B to be added to what is seen of the light; else as of addDiffuse()
+/// in out  change: of radiance, 3 planes
+#include "pass/addDiffuseChange.h"
+#ifdef PASS_addDiffuseChange
+__kernel void addDiffuseChange(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint size = p.planeSize;
+    const int16 surface = loadIdBlock(objectId, i) != 0u;
+    if (any(surface)) {
+        const Vec3x16 reflected = reflectedDiffuse(params, light, loadVecBlock(position, size, i),
+            loadVecBlock(normal, size, i), loadVecBlock(diffuse, size, i), nodes, surface);
+        addChangeBlock(change, size, i, more, surface, reflected);
+    }
+}
+#endif
+
+/// Its specular reflection, likewise. more: R G B of matt surfaces, and then of lobes
+#include "pass/addSpecularChange.h"
+#ifdef PASS_addSpecularChange
+__kernel void addSpecularChange(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint size = p.planeSize;
+    const Vec3x16 ks = loadVecBlock(specular, size, i);
+    const int16 mirrors = (loadIdBlock(objectId, i) != 0u) & (ks.x + ks.y + ks.z > 0.0f);
+    if (any(mirrors)) {
+        const Vec3x16 reflected = reflectedSpecular(params, light, frame, x, y, directions,
+            loadVecBlock(position, size, i), loadVecBlock(normal, size, i), ks, loadIdBlock(gloss, i), nodes, mirrors);
+        addChangeBlock(change, size, i, more + 3u * size, mirrors, reflected);
     }
 }
 #endif

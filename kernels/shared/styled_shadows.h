@@ -1,4 +1,5 @@
-// Hard shadows that are drawn in a style (kernels/light/shadow_edges.cl, shadow_distance.cl, shadow_styles.cl).
+// Shadows that are drawn in a style (kernels/light/shadow_edges.cl, shadow_distance.cl, shadow_styles.cl; soft ones
+// also shadow_levels.cl).
 #ifndef WEDGE_SHARED_STYLED_SHADOWS_H
 #define WEDGE_SHARED_STYLED_SHADOWS_H
 
@@ -28,6 +29,16 @@
 /// Of a blur: deviations as far as which it reaches, and taps along an axis to either side, at most.
 #define WEDGE_STYLE_CUT 3.0f
 #define WEDGE_STYLE_TAPS 10
+
+/// Levels of what is seen of a light that a soft shadow is drawn by.
+#define WEDGE_SHADOW_LEVELS 8u
+/// Planes of what they say: what is seen by them as it is, and in a style; by how much distances differ, metres, in the
+/// mean; and the distance to the nearest of their edges, metres.
+#define WEDGE_LEVEL_PLAIN 0u
+#define WEDGE_LEVEL_STYLED 1u
+#define WEDGE_LEVEL_MOVED 2u
+#define WEDGE_LEVEL_NEAREST 3u
+#define WEDGE_LEVEL_PLANES 4u
 
 /// Classes of distances that shadows' areas are counted by, of so many bits, and of each as many; and stripes of rows
 /// that are counted by themselves. Each has the classes, and behind them what is in shadow and what is lit.
