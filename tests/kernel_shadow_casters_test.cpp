@@ -139,3 +139,53 @@ TEST_CASE("addStyle: receivers have the style, others the plain shadow, and all 
         CHECK(styled > 1000);
     });
 }
+
+TEST_CASE("shadowOfCasters: what casts elsewhere hides nothing")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
+        PassBench primary(frame, "primary"), bench(frame, "shadowOfCasters");
+        primary.run();
+        for (const char* name : { "position", "normal", "origin" })
+            bench.plane(name, primary.read<float>(name));
+        for (const char* name : { "geometric", "objectId", "gloss" })
+            bench.plane(name, primary.read<std::uint32_t>(name));
+        const auto mattesOf = [&](std::uint32_t others) {
+            const std::vector<float> unknown(frame.layout.size, WEDGE_MATTE_UNKNOWN);
+            bench.plane("casters", std::vector<std::uint32_t> { others, others, others, others, 1, 1 });
+            bench.plane("matte", unknown);
+            bench.plane("others", unknown);
+            bench.run();
+            return std::pair(bench.read<float>("matte"), bench.read<float>("others"));
+        };
+        const auto [matte, others] = mattesOf(0);
+        const auto [alone, none] = mattesOf(WEDGE_CASTS_ELSEWHERE);
+        CHECK(alone == matte);
+        CHECK(std::ranges::count(others, WEDGE_MATTE_SHADOW) > 10);
+        CHECK(std::ranges::count(none, WEDGE_MATTE_SHADOW) == 0);
+    });
+}
+
+TEST_CASE("timesShare: what two shadows leave of each colour")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = named();
+        std::vector<scene::ShadowStyle>& styles = scene.directionalLights.front().styles;
+        styles.resize(2, styles.front());
+        styles.back().casters = { "board" };
+        DeclaredFrame frame(device, scene, sized(render::monteCarlo(1), width, height));
+        PassBench bench(frame, "timesShare");
+        std::mt19937 random(1);
+        const std::vector<float> one = someNumbers(random, 3 * frame.layout.size),
+                                 other = someNumbers(random, 3 * frame.layout.size);
+        bench.plane("share", one);
+        bench.plane("other", other);
+        bench.run();
+        const Planes<float> found = bench.pixels<float>("share"), a = planesOf(frame.layout, one),
+                            b = planesOf(frame.layout, other);
+        everyPixel(frame.layout, [&](int x, int y) {
+            for (std::size_t c = 0; c < 3; ++c)
+                REQUIRE(found.at(x, y, c) == a.at(x, y, c) * b.at(x, y, c));
+        });
+    });
+}

@@ -154,6 +154,9 @@ bool ofStyles(const device::Device& device, const OfFrame& visit)
             style.abstraction.linear = 0.1f; // by how far away what throws the shadow is
             style.casters = { "fence" };
             style.receivers = { "floor" };
+            std::vector<scene::ShadowStyle>& all = scene.directionalLights.front().styles;
+            all.push_back(all.front());
+            all.back().casters = { "trunk" };
         }
         for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
             render::Options options;

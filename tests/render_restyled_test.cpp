@@ -173,9 +173,9 @@ TEST_CASE("so do those of styles of other casters, and on some receivers")
         renderer.render(s);
         const std::vector<float> before = beauty(renderer);
         renderer.changeScene(
-            { .onlyKnobs = true }, [](scene::Scene& scene) { scene.directionalLights[0].styles[1].inflation = 0.2f; });
+            { .onlyKnobs = true }, [](scene::Scene& scene) { scene.directionalLights[0].styles[0].inflation = 0.2f; });
         CHECK(passesOf(renderer.render(s)) == std::set<std::string> { "composite", "styles of shadows" });
-        render::Renderer alone(sceneOfStyles(0.05f, 0.2f), device, renderOptions());
+        render::Renderer alone(sceneOfStyles(0.2f, 0.1f), device, renderOptions());
         alone.render(s);
         CHECK(sameBits(beauty(renderer), beauty(alone)));
         CHECK_FALSE(sameBits(beauty(renderer), before));

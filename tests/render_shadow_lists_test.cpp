@@ -24,6 +24,19 @@ scene::Scene squares()
     return b.scene;
 }
 
+/// The same without some objects.
+scene::Scene without(const std::vector<std::uint32_t>& left)
+{
+    scene::Scene scene = squares();
+    scene::Geometry& g = scene.geometry;
+    for (std::size_t t = 0; t < g.objectIds.size(); ++t)
+        for (std::size_t k = 0; std::ranges::count(left, g.objectIds[t]) > 0 && k < 3; ++k) {
+            g.positions[3 * g.indices[3 * t + k] + 1] += 50; // beside the image
+            g.positions[3 * g.indices[3 * t + k]] += 50;
+        }
+    return scene;
+}
+
 std::vector<double> sharesOf(
     const device::Device& device, const std::vector<std::string>& casters, scene::ShadowStyle style)
 {
@@ -39,17 +52,6 @@ TEST_CASE("casters' shadows have the style, and what others throw its own edges:
         const scene::ShadowStyle moved = style(0.1f, 0.1f, 0, 0.3f);
         const std::vector<double> some = sharesOf(device, { "left" }, moved);
         // The same of scenes that have but the one or but the others.
-        const auto without = [&](const std::vector<std::uint32_t>& left) {
-            scene::Scene scene = squares();
-            scene::Geometry& g = scene.geometry;
-            for (std::size_t t = 0; t < g.objectIds.size(); ++t)
-                for (std::size_t k = 0; std::ranges::count(left, g.objectIds[t]) > 0 && k < 3; ++k)
-                    g.positions[3 * g.indices[3 * t + k] + 1] += 50; // beside the image
-            for (std::size_t t = 0; t < g.objectIds.size(); ++t)
-                for (std::size_t k = 0; std::ranges::count(left, g.objectIds[t]) > 0 && k < 3; ++k)
-                    g.positions[3 * g.indices[3 * t + k]] += 50;
-            return scene;
-        };
         const std::vector<double> alone = shares(rendered(device, without({ 3, 4 }), moved));
         const std::vector<double> plain = shares(rendered(device, without({ 2 }), style()));
         std::size_t dark = 0, dim = 0;
@@ -127,24 +129,40 @@ TEST_CASE("what is no receiver has plain shadows")
     });
 }
 
-TEST_CASE("styles of one light with casters of their own add up, and have layers of their own")
+TEST_CASE("styles of one light with casters of their own each draw their shadows, one times the other")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::ShadowStyle one = style(0.1f, 0.1f), two = style(-0.05f, 0, 0, 0.5f);
-        const std::vector<double> first = sharesOf(device, { "left" }, one),
-                                  second = sharesOf(device, { "right" }, two);
+        scene::ShadowStyle one = style(0.1f, 0.1f), two = style(-0.05f, 0, 0, 0.5f), rest = style(0, 0.05f, 0, 0.25f);
         one.casters = { "left" };
         two.casters = { "right" };
-        one.weight = 0.75f;
-        two.weight = 0.25f;
+        const auto sharesWith = [&](const scene::Scene& of, const std::vector<scene::ShadowStyle>& styles) {
+            scene::Scene scene = of;
+            scene.directionalLights.front().styles = styles;
+            render::Renderer renderer(scene, device, renderOptions());
+            return shares(renderPixels(renderer, settings()));
+        };
+        const std::vector<double> first = sharesWith(without({ 3, 4 }), { one }),
+                                  second = sharesWith(without({ 2, 4 }), { two });
+        const std::vector<double> third = sharesWith(without({ 2, 3 }), { rest });
+        const std::vector<double> hard = sharesWith(without({ 2, 3 }), { style() });
+        const std::vector<double> both = sharesWith(squares(), { one, two }),
+                                  all = sharesWith(squares(), { one, rest, two });
+        std::size_t inBoth = 0, dim = 0;
+        for (std::size_t i = 0; i < both.size(); ++i) {
+            REQUIRE(both[i] == doctest::Approx(first[i] * second[i] * hard[i]).epsilon(1e-4));
+            // A style without casters is of all that no other style of the light names.
+            REQUIRE(all[i] == doctest::Approx(first[i] * second[i] * third[i]).epsilon(1e-3));
+            inBoth += first[i] < 0.9 && third[i] < 0.9 ? 1 : 0;
+            dim += std::abs(second[i] - 0.5) < 1e-3 ? 1 : 0;
+        }
+        CHECK(inBoth > 100);
+        CHECK(dim > 1000); // wholly in its style
         scene::Scene scene = squares();
         scene.directionalLights.front().styles = { one, two };
         render::Renderer renderer(scene, device, renderOptions());
-        const std::vector<double> both = shares(renderPixels(renderer, settings(), true));
-        for (std::size_t i = 0; i < both.size(); ++i)
-            REQUIRE(both[i] == doctest::Approx(0.75 * first[i] + 0.25 * second[i]).epsilon(1e-4));
-        const Window all { 0, 0, width, height };
-        CHECK(pixels(renderer, "shadowMatte.1", all) != pixels(renderer, "shadowMatte.1.2", all));
-        CHECK(pixels(renderer, "shadowDistance.1", all) != pixels(renderer, "shadowDistance.1.2", all));
+        renderPixels(renderer, settings(), true);
+        const Window whole { 0, 0, width, height };
+        CHECK(pixels(renderer, "shadowMatte.1", whole) != pixels(renderer, "shadowMatte.1.2", whole));
+        CHECK(pixels(renderer, "shadowDistance.1", whole) != pixels(renderer, "shadowDistance.1.2", whole));
     });
 }

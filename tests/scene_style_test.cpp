@@ -89,6 +89,17 @@ TEST_CASE("objects that throw shadows in a style, and that have them, go by thei
         const std::string message = scene_test::errorOf(styled(lists));
         CHECK_MESSAGE(contains(message, what), message);
     };
+    // Each group of casters has all of the light.
+    const std::string high = "casters = 'tree/high'\n", more = "[[light.style]]\ninflation = 2\n";
+    CHECK(
+        wedge::scene::loadScene(styled(high + more + "casters = 'ground'\n" + more)).directionalLights[0].styles.size()
+        == 3);
+    CHECK(wedge::scene::loadScene(styled(high + "weight = 0.25\n" + more + more + "weight = 0.75\n" + high))
+              .directionalLights[0]
+              .styles.size()
+        == 3);
+    says(high + more + "weight = 0.5\n", "style of light has weights that do not add up to 1: 0.5");
+    says(high + more + high, "light.style lacks a key: weight");
     says("casters = 'tre'\n", "casters of light.style names no object of the scene: 'tre': did you mean 'tree'?");
     says("receivers = ['tree', 'tree/lo']\n", "names no object of the scene: 'tree/lo': did you mean 'tree/low'?");
     says("receivers = 'lighthouse'\n", "names no object of the scene: 'lighthouse': wedge info lists the objects");

@@ -84,6 +84,11 @@ std::vector<StyleGroup> groupsOf(const StyledLight& light)
     }
     for (std::size_t i = 0; i < groups.size(); ++i) {
         groups[i].name = i == 0 ? light.name : fmt::format("{}.{}", light.name, i + 1);
+        for (std::size_t k = 0; k < groups.size(); ++k) {
+            const std::vector<std::string>& casters = groups[k].styles.front().casters;
+            groups[i].apart.insert(groups[i].apart.end(), casters.begin(), k == i ? casters.begin() : casters.end());
+            groups[i].restApart = groups[i].restApart || (k != i && casters.empty());
+        }
     }
     return groups;
 }

@@ -32,6 +32,8 @@ struct StyleGroup {
     std::string name; ///< of its layers: the light's, of the second and later ones with a number
     std::vector<scene::ShadowStyle> styles;
     std::vector<std::size_t> places; ///< of these, among all of the light
+    std::vector<std::string> apart; ///< casters of the light's other groups
+    bool restApart = false; ///< one of these has all that none names
 };
 
 /// In the order of the first style of each.

@@ -32,31 +32,39 @@ constexpr const char* stylesProgram = "light/shadow_styles.cl";
 /// The passes of those of a light's styles that have the same casters.
 class StyledShadow {
 public:
-    /// places: of the styles, among all of the light; weights: of all of these.
-    StyledShadow(
-        FrameBuilder& frame, ReceiverSet& at, const StyledLight& light, std::vector<std::size_t> places, float weights)
+    /// light: with those styles alone; group: them
+    StyledShadow(FrameBuilder& frame, ReceiverSet& at, const StyledLight& light, const StyleGroup& group)
         : f_(frame)
         , at_(at)
         , light_(light)
-        , places_(std::move(places))
-        , weights_(weights)
-        , casters_(!light.styles.front().casters.empty())
+        , group_(group)
+        , casters_(!group.styles.front().casters.empty() || !group.apart.empty())
         , varies_(std::ranges::any_of(light.styles, variesByOccluder))
         , farthest_(varies_ ? farthestOccluder(frame.description, light.index) : 0.0f)
         , largest_(mostDistance(light.styles, farthest_))
     {
     }
 
-    /// Declares them; adds to the radiance that pixels reflect.
-    void declare(graph::Handle<Radiance>& radiance)
+    /// Declares them: what is left of the light.
+    graph::Handle<Share>& declare()
     {
         matte();
         if (largest_ > 0.0f) {
             distances();
         }
         shares();
-        light(radiance);
         show();
+        return share_;
+    }
+
+    /// Adds to the radiance that pixels reflect.
+    void light(const graph::Handle<Share>& share, graph::Handle<Radiance>& radiance)
+    {
+        f_.pixels("composite", PassKind::Composite, { stylesProgram, "styledLight" },
+            joined({ f_.frame() }, ofLight(), at_.arguments(),
+                graph::together(
+                    "reflectances", { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular) }),
+                Arguments { reads("matte", matte_), reads("share", share), updates("lit", radiance) }));
     }
 
 private:
@@ -83,7 +91,7 @@ private:
             others_ = f_.graph.plane<Matte>("matte of other shadows", graph::floats);
             f_.fill("unknown", others_, WEDGE_MATTE_UNKNOWN);
             passes = joined(passes, Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds) },
-                objectList(f_, "casters", light_.styles.front().casters), Arguments { updates("others", others_) });
+                casterList(f_, group_), Arguments { updates("others", others_) });
         }
         at_.trace("shadows in a style", { edgesProgram, casters_ ? "shadowOfCasters" : "shadowMatte" },
             std::move(passes), [](const Launch&) { return 1.0; });
@@ -107,7 +115,7 @@ private:
     template <class Number>
     graph::Argument knob(std::string name, std::size_t style, const Number& number) const
     {
-        const auto now = [&scene = f_.description, light = light_.index, place = places_[style], number] {
+        const auto now = [&scene = f_.description, light = light_.index, place = group_.places[style], number] {
             return number(styleOf(scene, light, place));
         };
         return light_.styles[style].keys.empty() ? value(std::move(name), now())
@@ -119,8 +127,12 @@ private:
     {
         share_ = f_.graph.plane<Share>("share of a light", graph::vectors);
         f_.zero(share_);
+        float weights = 0.0f;
+        for (const scene::ShadowStyle& style : light_.styles) {
+            weights += style.weight;
+        }
         for (std::size_t i = 0; i < light_.styles.size(); ++i) {
-            addStyle(i, light_.styles[i].weight / weights_);
+            addStyle(i, light_.styles[i].weight / weights);
         }
     }
 
@@ -160,15 +172,6 @@ private:
         f_.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "addStyle" }, std::move(passes));
     }
 
-    void light(graph::Handle<Radiance>& radiance)
-    {
-        f_.pixels("composite", PassKind::Composite, { stylesProgram, "styledLight" },
-            joined({ f_.frame() }, ofLight(), at_.arguments(),
-                graph::together(
-                    "reflectances", { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular) }),
-                Arguments { reads("matte", matte_), reads("share", share_), updates("lit", radiance) }));
-    }
-
     void show()
     {
         if (f_.layers == nullptr) {
@@ -183,8 +186,7 @@ private:
     FrameBuilder& f_;
     ReceiverSet& at_;
     const StyledLight& light_;
-    const std::vector<std::size_t> places_; ///< of the styles, among all of the light
-    const float weights_; ///< of all of those
+    const StyleGroup& group_;
     const bool casters_; ///< some things alone throw such shadows
     const bool varies_; ///< some style goes by how far away what hides the light is
     const float farthest_; ///< metres, that it is
@@ -199,15 +201,23 @@ private:
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
     for (const StyledLight& light : styledLights(f.settings, f.description)) {
-        float weights = 0.0f;
-        for (const scene::ShadowStyle& style : light.styles) {
-            weights += style.weight;
-        }
-        for (const StyleGroup& group : groupsOf(light)) {
+        const std::vector<StyleGroup> groups = groupsOf(light);
+        graph::Handle<Share> left;
+        for (const StyleGroup& group : groups) {
             StyledLight part = light;
             part.name = group.name;
             part.styles = group.styles;
-            StyledShadow(f, at, part, group.places, weights).declare(radiance);
+            StyledShadow shadow(f, at, part, group);
+            graph::Handle<Share>& share = shadow.declare();
+            if (left.graph == 0) {
+                left = share;
+            } else {
+                f.pixels("styles of shadows", PassKind::Composite, { stylesProgram, "timesShare" },
+                    { f.rectangle(f.analysisParams()), reads("other", share), updates("share", left) });
+            }
+            if (&group == &groups.back()) {
+                shadow.light(left, radiance);
+            }
         }
     }
 }

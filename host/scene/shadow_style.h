@@ -27,7 +27,7 @@ struct Knob {
 /// How a light's shadow is drawn; docs/stylized-shadows.md has the equations. A light may have several, each of a
 /// share of its light.
 struct ShadowStyle {
-    float weight = 1.0f; ///< its share; those of a light add up to 1
+    float weight = 1.0f; ///< its share; those of a light with the same casters add up to 1
     Knob<float> inflation; ///< metres that the edge moves outwards
     Knob<float> softness; ///< metres over which the edge goes from dark to bright
     Knob<float> abstraction; ///< metres: standard deviation of what smooths the shadow's outline

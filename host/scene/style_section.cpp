@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -171,16 +172,21 @@ bool changesNothing(const ShadowStyle& style)
 std::vector<ShadowStyle> readStyles(TableReader& light, ShadowKind kind, double time)
 {
     std::vector<TableReader> tables = light.tables("style");
+    std::map<std::vector<std::string>, double> weights; // of those with the same casters
+    std::map<std::vector<std::string>, int> count;
+    for (TableReader& table : tables)
+        ++count[table.names("casters")];
     std::vector<ShadowStyle> styles;
     styles.reserve(tables.size());
-    double sum = 0.0;
     for (TableReader& table : tables) {
-        styles.push_back(readStyle(table, kind, tables.size() > 1, time));
-        sum += double { styles.back().weight };
+        const ShadowStyle& style = styles.emplace_back(readStyle(table, kind, count[table.names("casters")] > 1, time));
+        weights[style.casters] += double { style.weight };
     }
-    if (!styles.empty() && !(std::abs(sum - 1.0) <= weightsOff))
-        light.fail("style", "has weights that do not add up to 1", fmt::format("{:g}", sum),
-            "give each its share of the light");
+    for (const auto& [casters, sum] : weights) {
+        if (!(std::abs(sum - 1.0) <= weightsOff))
+            light.fail("style", "has weights that do not add up to 1", fmt::format("{:g}", sum),
+                "give each of those with the same casters its share of the light");
+    }
     if (std::ranges::all_of(styles, changesNothing))
         styles.clear();
     return styles;

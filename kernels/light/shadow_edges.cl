@@ -53,7 +53,8 @@ __kernel void shadowMatte(PARAMETERS)
 /// The same of some casters and of all other things, each as if they were alone: a ray goes on until both are known, or
 /// counts as hidden by both behind WEDGE_MOST_SURFACES.
 ///
-/// in      as of shadowMatte(); objectIds: of triangles; casters: 1 or 0 for each id below `objects`
+/// in      as of shadowMatte(); objectIds: of triangles; casters: WEDGE_CASTS, or 0, for each id below `objects`;
+///         those with WEDGE_CASTS_ELSEWHERE hide nothing here
 /// in out  matte, occluder, rays: as of shadowMatte(), of the casters; others: WEDGE_MATTE_*, unknown before
 #include "pass/shadowOfCasters.h"
 #ifdef PASS_shadowOfCasters
@@ -79,10 +80,11 @@ __kernel void shadowOfCasters(PARAMETERS)
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const bool hit = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
             const uint object = hit ? objectIds[hits.triangle[lane]] : 0u;
-            if (hit && object < objects && casters[object] != 0u) {
+            const uint casts = object < objects ? casters[object] : 0u;
+            if (hit && casts == WEDGE_CASTS) {
                 met[lane] = byCasters[lane] ? met[lane] : hits.t[lane];
                 byCasters[lane] = true;
-            } else if (hit) {
+            } else if (hit && casts == 0u) {
                 byOthers[lane] = true;
             }
             const bool goesOn = hit && !(byCasters[lane] && byOthers[lane]);

@@ -147,6 +147,19 @@ __kernel void addStyle(PARAMETERS)
 }
 #endif
 
+/// What is left of a light by two shadows.
+///
+/// in      p; other: R G B, of the light
+/// in out  share: likewise
+#include "pass/timesShare.h"
+#ifdef PASS_timesShare
+__kernel void timesShare(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    STORE_share(p.planeSize, i, vecMul(LOAD_share(p.planeSize, i), LOAD_other(p.planeSize, i)));
+}
+#endif
+
 /// The light of a light whose shadows have a style.
 ///
 /// in      frame, receivers, diffuse, specular; lights, of which lightIndex is the one; matte; share: R G B, of it

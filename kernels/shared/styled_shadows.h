@@ -10,6 +10,11 @@
 #define WEDGE_MATTE_SHADOW 0.0f
 #define WEDGE_MATTE_UNKNOWN (-1.0f) ///< it faces away from the light, or there is no surface
 
+/// What an object has to do with a matte of casters: its shadow is there, or in another matte of the light. Others have
+/// 0.
+#define WEDGE_CASTS 1u
+#define WEDGE_CASTS_ELSEWHERE 2u
+
 /// Cells, squares between the middles of four pixels, along each side of a tile of which one work-item lists the edges.
 #define WEDGE_EDGE_TILE 16u
 /// Numbers of a piece of edge in their list: its middle (metres), its normal, its length (metres), and

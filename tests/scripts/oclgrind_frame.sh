@@ -128,7 +128,7 @@ check styled "$scenes/styled.toml" --traversal wide --size 19x13 --method mc --s
 sed -e "s|meshes/|$scenes/meshes/|" -e "s|^inflation = .*|inflation = { at = [0, 0.05, 0] }|" \
     -e "s|^abstraction = .*|abstraction = { at = [0, 0.1, 0] }|" "$scenes/styled.toml" >"$work/styled_away.toml"
 check styled_away "$work/styled_away.toml" --traversal wide --size 19x13 --method mc --spp 1
-sed "s|^brightness = .*|casters = 'fence'\nreceivers = 'floor'|" "$work/styled_away.toml" >"$work/styled_lists.toml"
+sed "s|^brightness = .*|casters = 'fence'\nreceivers = 'floor'\n[[light.style]]\nsoftness = 0.1|" "$work/styled_away.toml" >"$work/styled_lists.toml"
 check styled_lists "$work/styled_lists.toml" --traversal wide --size 19x13 --method mc --spp 1
 sed -e "s#\"meshes/#\"$scenes/meshes/#" -e 's/^softness = .*/&\nkey = [{ time = 0 }, { time = 1, inflation = 0.1 }]/' \
     "$scenes/styled.toml" >"$work/styled_keys.toml"
