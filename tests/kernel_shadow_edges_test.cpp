@@ -36,53 +36,67 @@ TEST_CASE("shadowMatte: what the light reaches, what it does not, and what faces
     });
 }
 
-TEST_CASE("countEdges and listEdges: marching squares on surfaces, tile by tile")
+namespace {
+
+/// Lists the edges of that matte, against the host.
+void checkEdges(Traced& traced, const Seen& s)
+{
+    const std::vector<std::vector<Piece>> expected = piecesOfTiles(s);
+    PassBench count(traced.frame, "countEdges"), list(traced.frame, "listEdges"), small(traced.frame, "listEdges");
+    for (PassBench* bench : { &count, &list, &small }) {
+        traced.give(*bench);
+        bench->plane("matte", s.matte);
+        bench->plane("objectId", s.object);
+    }
+    count.run();
+    const std::vector<std::uint32_t> counts = count.read<std::uint32_t>("counts");
+    REQUIRE(counts.size() == expected.size());
+    std::vector<std::uint32_t> first;
+    first.reserve(counts.size());
+    std::uint32_t sum = 0;
+    for (std::size_t tile = 0; tile < counts.size(); ++tile) {
+        CHECK(counts[tile] == expected[tile].size());
+        first.push_back(sum);
+        sum += counts[tile];
+    }
+    CHECK(sum > 200);
+    list.plane("first", first);
+    list.run();
+    const std::vector<float> edges = list.read<float>("edges");
+    const std::vector<float> all = listOf(joinedPieces(expected), edges.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        worst = std::max(worst, std::abs(double { edges[i] } - all[i]));
+    CHECK(worst < 1e-5);
+    // Where there is no room nothing is written.
+    small.plane("first", first);
+    small.value("capacity", std::uint32_t { 100 });
+    small.run();
+    const std::vector<float> part = small.read<float>("edges");
+    constexpr std::size_t end = 100 * WEDGE_EDGE_FLOATS;
+    CHECK(std::equal(part.begin(), part.begin() + end, edges.begin()));
+    CHECK(std::all_of(part.begin() + end, part.end(), [](float v) { return v == 0; }));
+}
+
+} // namespace
+
+TEST_CASE("countEdges and listEdges: marching squares on surfaces, tile by tile, of hard and of soft mattes")
 {
     onEveryDevice([](const device::Device& device) {
-        Traced traced(device);
-        Seen s(traced);
-        // Noise, for all cases of the table, and objects that end in the midst of surfaces.
-        std::mt19937 random(1);
-        everyPixel(traced.frame.layout, [&](int x, int y) {
-            float& v = s.matte.at(x, y);
-            v = v >= 0 && y < 30 ? static_cast<float>(random() % 2) : v;
-            s.object.at(x, y) += s.object.at(x, y) != 0 && x > 50 ? 100 : 0;
-        });
-        const std::vector<std::vector<Piece>> expected = piecesOfTiles(s);
-        PassBench count(traced.frame, "countEdges"), list(traced.frame, "listEdges"), small(traced.frame, "listEdges");
-        for (PassBench* bench : { &count, &list, &small }) {
-            traced.give(*bench);
-            bench->plane("matte", s.matte);
-            bench->plane("objectId", s.object);
+        for (const bool soft : { false, true }) {
+            CAPTURE(soft);
+            Traced traced(device);
+            Seen s(traced);
+            // Noise, for all cases of the table, and objects that end in the midst of surfaces.
+            std::mt19937 random(1);
+            everyPixel(traced.frame.layout, [&](int x, int y) {
+                float& v = s.matte.at(x, y);
+                const double noise = soft ? uniform(random) : static_cast<double>(random() % 2);
+                v = v >= 0 && y < 30 ? static_cast<float>(noise) : v;
+                s.object.at(x, y) += s.object.at(x, y) != 0 && x > 50 ? 100 : 0;
+            });
+            checkEdges(traced, s);
         }
-        count.run();
-        const std::vector<std::uint32_t> counts = count.read<std::uint32_t>("counts");
-        REQUIRE(counts.size() == expected.size());
-        std::vector<std::uint32_t> first;
-        first.reserve(counts.size());
-        std::uint32_t sum = 0;
-        for (std::size_t tile = 0; tile < counts.size(); ++tile) {
-            CHECK(counts[tile] == expected[tile].size());
-            first.push_back(sum);
-            sum += counts[tile];
-        }
-        CHECK(sum > 200);
-        list.plane("first", first);
-        list.run();
-        const std::vector<float> edges = list.read<float>("edges");
-        const std::vector<float> all = listOf(joinedPieces(expected), edges.size());
-        double worst = 0;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            worst = std::max(worst, std::abs(double { edges[i] } - all[i]));
-        CHECK(worst < 1e-5);
-        // Where there is no room nothing is written.
-        small.plane("first", first);
-        small.value("capacity", std::uint32_t { 100 });
-        small.run();
-        const std::vector<float> part = small.read<float>("edges");
-        constexpr std::size_t end = 100 * WEDGE_EDGE_FLOATS;
-        CHECK(std::equal(part.begin(), part.begin() + end, edges.begin()));
-        CHECK(std::all_of(part.begin() + end, part.end(), [](float v) { return v == 0; }));
     });
 }
 

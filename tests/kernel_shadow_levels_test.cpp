@@ -89,9 +89,9 @@ TEST_CASE("levelMatte: lit above a level, in shadow below, unknown where the who
                         seen = seen || glm::dot(pointOf(frame.light(), a, b) - at, n) > 0;
                 const double before = glm::dot(lightNormal(frame.light()), at - glm::dvec3(frame.light().centre));
                 seen = seen && ids.at(x, y) != 0 && (twoSided || before > 0);
-                const float lit = value.at(x, y) > 0.4f ? WEDGE_MATTE_LIT : WEDGE_MATTE_SHADOW;
+                const float lit = std::clamp(value.at(x, y) - 0.4f + 0.5f, 0.0f, 1.0f);
                 REQUIRE(matte.at(x, y) == (seen ? lit : WEDGE_MATTE_UNKNOWN));
-                ++found[static_cast<std::size_t>(matte.at(x, y) + 1)];
+                ++found[matte.at(x, y) < 0 ? 0 : matte.at(x, y) > 0.5f ? 1 : 2];
             });
             CHECK(*std::ranges::min_element(found) > 10);
         }

@@ -119,13 +119,14 @@ inline std::vector<Piece> piecesOf(const Seen& s, int x, int y)
     const int table[16][4] = { { -1, -1, -1, -1 }, { 3, 0, -1, -1 }, { 0, 1, -1, -1 }, { 3, 1, -1, -1 },
         { 1, 2, -1, -1 }, { 3, 0, 1, 2 }, { 0, 2, -1, -1 }, { 3, 2, -1, -1 }, { 2, 3, -1, -1 }, { 2, 0, -1, -1 },
         { 0, 1, 2, 3 }, { 1, 2, -1, -1 }, { 1, 3, -1, -1 }, { 0, 1, -1, -1 }, { 0, 3, -1, -1 }, { -1, -1, -1, -1 } };
-    const auto middle = [&](int side) {
+    const auto crossing = [&](int side) {
         const glm::ivec2 a = corners[side], b = corners[(side + 1) % 4];
-        return 0.5 * (s.position.vector(a.x, a.y) + s.position.vector(b.x, b.y));
+        const double here = s.matte.at(a.x, a.y), next = s.matte.at(b.x, b.y);
+        return glm::mix(s.position.vector(a.x, a.y), s.position.vector(b.x, b.y), (0.5 - here) / (next - here));
     };
     std::vector<Piece> out;
     for (int k = 0; k < 4 && table[code][k] >= 0; k += 2) {
-        const glm::dvec3 a = middle(table[code][k]), b = middle(table[code][k + 1]);
+        const glm::dvec3 a = crossing(table[code][k]), b = crossing(table[code][k + 1]);
         out.push_back({ 0.5 * (a + b), glm::normalize(sum), glm::length(b - a), away / hidden });
     }
     return out;

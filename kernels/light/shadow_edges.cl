@@ -169,7 +169,7 @@ WEDGE_FN void findEdges(SeenShadow seen, uint i, uint stride, EdgeCell* cell)
     for (uint k = 0u; k < 4u; ++k) {
         const float here = seen.matte[cell->corner[k]], next = seen.matte[cell->corner[(k + 1u) & 3u]];
         known = known && here >= 0.0f;
-        if (here != next) {
+        if ((here > 0.5f) != (next > 0.5f)) {
             cell->side[crossed] = k;
             ++crossed;
         }
@@ -181,7 +181,7 @@ WEDGE_FN void findEdges(SeenShadow seen, uint i, uint stride, EdgeCell* cell)
         known = known && onOneSurface(seen, cell->corner[k], cell->corner[(k + 1u) & 3u]);
     }
     cell->pieces = known ? crossed / 2u : 0u;
-    if (crossed == 4u && seen.matte[cell->corner[1]] < 0.5f) {
+    if (crossed == 4u && !(seen.matte[cell->corner[1]] > 0.5f)) {
         // Around the lit corners: shadows that touch are one. Corner k lies between sides k - 1 and k.
         cell->side[0] = 3u;
         cell->side[1] = 0u;
@@ -190,12 +190,13 @@ WEDGE_FN void findEdges(SeenShadow seen, uint i, uint stride, EdgeCell* cell)
     }
 }
 
-/// The middle of a cell's side.
-WEDGE_FN Vec3 middleOfSide(SeenShadow seen, const EdgeCell* cell, uint side)
+/// Where the matte is 0.5 on a cell's side, along which it is linear: of a hard one in the middle.
+WEDGE_FN Vec3 crossingOfSide(SeenShadow seen, const EdgeCell* cell, uint side)
 {
-    const Vec3 a = loadVec(seen.position, seen.size, cell->corner[side]);
-    const Vec3 b = loadVec(seen.position, seen.size, cell->corner[(side + 1u) & 3u]);
-    return vecScale(vecAdd(a, b), 0.5f);
+    const uint i = cell->corner[side], j = cell->corner[(side + 1u) & 3u];
+    const float here = seen.matte[i], next = seen.matte[j];
+    const float t = clamp((0.5f - here) / (next - here), 0.0f, 1.0f);
+    return vecMad(vecScale(loadVec(seen.position, seen.size, i), 1.0f - t), loadVec(seen.position, seen.size, j), t);
 }
 
 /// How far away what hides the light is, metres: the mean over a cell's corners in shadow, of which there is one.
@@ -235,8 +236,8 @@ WEDGE_FN uint edgesOfTile(SeenShadow seen, AnalysisParams p, uint tile, uint at,
             }
             const float away = seen.occluder != 0 ? occluderOf(seen, &cell) : 0.0f;
             for (uint k = 0u; k < cell.pieces; ++k, ++at) {
-                const Vec3 a = middleOfSide(seen, &cell, cell.side[2u * k]);
-                const Vec3 b = middleOfSide(seen, &cell, cell.side[2u * k + 1u]);
+                const Vec3 a = crossingOfSide(seen, &cell, cell.side[2u * k]);
+                const Vec3 b = crossingOfSide(seen, &cell, cell.side[2u * k + 1u]);
                 const Vec3 middle = vecScale(vecAdd(a, b), 0.5f), m = vecNormalize(n);
                 const float8 piece =
                     (float8)(middle.x, middle.y, middle.z, m.x, m.y, m.z, vecLength(vecSub(b, a)), away);

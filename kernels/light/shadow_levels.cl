@@ -16,10 +16,11 @@ WEDGE_FN bool mayBeLit(AreaLight light, Vec3 at, Vec3 n)
     return vecDot(n, toCentre) + up > 0.0f && (light.twoSided != 0u || vecDot(light.normal, toCentre) < 0.0f);
 }
 
-/// A hard shadow: where more than a level is seen of a light.
+/// A shadow whose edge is where a level is seen of a light.
 ///
 /// in   p, position, normal, objectId; light; value: what is seen of it, 0 to 1; level: likewise
-/// out  matte: WEDGE_MATTE_*
+/// out  matte: from WEDGE_MATTE_SHADOW to WEDGE_MATTE_LIT, in the middle of these at the level, and as steep as what is
+///      seen; or WEDGE_MATTE_UNKNOWN
 #include "pass/levelMatte.h"
 #ifdef PASS_levelMatte
 __kernel void levelMatte(PARAMETERS)
@@ -28,8 +29,8 @@ __kernel void levelMatte(PARAMETERS)
     const uint size = p.planeSize;
     const bool known =
         objectId[i] != 0u && mayBeLit(light, loadVec(position, size, i), loadVec(WEDGE_UNMAPPED(size), size, i));
-    const float hard = value[i] > level ? WEDGE_MATTE_LIT : WEDGE_MATTE_SHADOW;
-    matte[i] = known ? hard : WEDGE_MATTE_UNKNOWN;
+    const float above = clamp(value[i] - level + 0.5f, WEDGE_MATTE_SHADOW, WEDGE_MATTE_LIT);
+    matte[i] = known ? above : WEDGE_MATTE_UNKNOWN;
 }
 #endif
 
