@@ -50,6 +50,8 @@ TEST_CASE("lights for an environment's shadows are told of in images and reports
     CHECK(told(lights, "shadowComplete") == "lights");
     CHECK(told(lights, "shadowClamp") == "on");
     CHECK(contains(readAll(place.path() / "r.json"), "\"clamped_pixels\": 0"));
+    const image::LayeredImage cached = render({ "--shadows", "ratio", "--shadow-complete", "cache" });
+    CHECK(told(cached, "shadowComplete") == "cache");
     const image::LayeredImage few =
         render({ "--shadows", "ratio", "--shadow-lights", "30:4", "--shadow-scale", "1/16" });
     CHECK(told(few, "shadowLights") == "30:4");
@@ -102,6 +104,8 @@ TEST_CASE("what lights for an environment's shadows cannot do is refused in a li
         none + "without --shadows: --shadow-lights 9: leave it out, or add --shadows ratio");
     refused({ "--shadows", "additive", "--shadow-complete", "lights" },
         none + "with --shadows additive: --shadow-complete lights: leave it out, or add --shadows ratio");
+    refused({ "--shadows", "ratio", "--shadow-complete", "table" },
+        "--shadow-complete: table: choose map, prefiltered, lights, cache");
     refused({ "--shadows", "ratio", "--shadow-lights", "40:0" },
         "--shadow-lights N:K: 0: give a whole number from 1 to 40");
     refused({ "--shadows", "ratio", "--shadow-lights", "40:41" },

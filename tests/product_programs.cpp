@@ -77,6 +77,10 @@ std::vector<Settings> manySettings()
         s.environment.shadows.shadows = render::Shadows::Ratio;
         s.environment.shadows.whole = render::WholeLight::Prefiltered;
     });
+    add(1, [](Settings& s) {
+        s.environment.shadows.shadows = render::Shadows::Ratio;
+        s.environment.shadows.whole = render::WholeLight::Cache;
+    });
     for (const std::size_t like : { 0u, 1u }) {
         add(like, [](Settings& s) {
             s.environment.shadows.shadows = render::Shadows::Ratio;

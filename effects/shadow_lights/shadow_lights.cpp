@@ -19,6 +19,12 @@ namespace {
 
 constexpr const char* program = "light/shadow_combination.cl";
 
+/// WEDGE_COMPLETE_*: what is looked up lies where sums over the map would.
+std::uint32_t completeOf(WholeLight kind)
+{
+    return static_cast<std::uint32_t>(kind == WholeLight::Cache ? WholeLight::Map : kind);
+}
+
 /// How the map's whole light and lights are put together.
 Arguments combination(const FrameBuilder& f)
 {
@@ -26,8 +32,7 @@ Arguments combination(const FrameBuilder& f)
     const std::uint32_t ways[] = { 0u, WEDGE_SHADOWS_ADDITIVE, WEDGE_SHADOWS_SUBTRACTIVE, WEDGE_SHADOWS_RATIO };
     const glm::vec3 most(f.scene != nullptr ? f.description.lights().beyond->mostIrradiance : glm::dvec3(0.0));
     return graph::together("combination",
-        { value("shadows", ways[static_cast<int>(s.shadows)]),
-            value("complete", static_cast<std::uint32_t>(wholeLight(s))),
+        { value("shadows", ways[static_cast<int>(s.shadows)]), value("complete", completeOf(wholeLight(s))),
             value("clamps", s.shadows == Shadows::Subtractive && s.clamp ? 1u : 0u),
             value("wide", widensLobes(s) ? 1u : 0u), value("mostRed", most.r), value("mostGreen", most.g),
             value("mostBlue", most.b) });

@@ -1,5 +1,6 @@
 #include "effects/shadow_lights/whole_light.h"
 
+#include "effects/shadow_lights/light_cache.h"
 #include "effects/shadow_lights/light_tree.h"
 #include "kernels/shared/shadow_lights.h"
 
@@ -28,21 +29,11 @@ constexpr double leastPart = 3e-3;
 /// Sums over parts of the map.
 WholeLights sumsOfParts(FrameBuilder& f, ReceiverSet& at)
 {
-    const EnvironmentPicture& picture = *f.description.picture();
-    const PlaceGrid grid = placeGrid(picture.width, picture.height);
-    const std::size_t parts = treeParts(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    const graph::Handle<Directions> tree = listOfMap(f, "parts of the map", parts * WEDGE_TREE_FLOATS, lightTree);
-    // What happens to lie there in rehearsals is no tree, and might be walked forever.
-    const auto walked = [parts = static_cast<std::uint32_t>(parts)](const graph::Launch& launch) -> std::uint32_t {
-        return launch.run.rehearsal() ? 0 : parts;
-    };
     WholeLights whole { f.graph.plane<Radiance>("whole light of matt surfaces", graph::vectors),
         f.graph.plane<Radiance>("whole light of lobes", graph::vectors) };
     f.zero(whole.matt, whole.lobes);
-    const double everywhere = f.scene != nullptr ? f.description.lights().beyond->irradiance : 0.0;
-    const auto least = static_cast<float>(leastPart * everywhere / (4.0 * std::acos(-1.0)));
     at.trace("whole light", { program, "wholeLight" },
-        joined({ at.frame(), graph::made("parts", walked), value("least", least), reads("tree", tree) }, at.arguments(),
+        joined({ at.frame() }, partsOfMap(f), at.arguments(),
             Arguments { reads("specular", f.surfaces.specular), updates("wholeMatt", whole.matt),
                 updates("whole", whole.lobes) }),
         [units = wholeLightUnits(f.settings.environment.shadows)](const graph::Launch&) { return units; });
@@ -74,6 +65,9 @@ WholeLights wholeLights(FrameBuilder& frame, ReceiverSet& at)
     if (kind == WholeLight::Map) {
         return sumsOfParts(frame, at);
     }
+    if (kind == WholeLight::Cache) {
+        return cachedLights(frame);
+    }
     WholeLights whole;
     if (frame.specular() && kind == WholeLight::Prefiltered) {
         whole.lobes = meansOfMap(frame, at);
@@ -84,7 +78,23 @@ WholeLights wholeLights(FrameBuilder& frame, ReceiverSet& at)
 double wholeLightUnits(const ShadowSettings& settings)
 {
     const WholeLight kind = wholeLight(settings);
-    return kind == WholeLight::Map ? 60.0 : kind == WholeLight::Prefiltered ? 2.0 * wholeRings * wholeRings : 0.0;
+    const bool ofParts = kind == WholeLight::Map || kind == WholeLight::Cache;
+    return ofParts ? 60.0 : kind == WholeLight::Prefiltered ? 2.0 * wholeRings * wholeRings : 0.0;
+}
+
+Arguments partsOfMap(FrameBuilder& f)
+{
+    const EnvironmentPicture& picture = *f.description.picture();
+    const PlaceGrid grid = placeGrid(picture.width, picture.height);
+    const std::size_t parts = treeParts(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
+    const graph::Handle<Directions> tree = listOfMap(f, "parts of the map", parts * WEDGE_TREE_FLOATS, lightTree);
+    // What happens to lie there in rehearsals is no tree, and might be walked forever.
+    const auto walked = [parts = static_cast<std::uint32_t>(parts)](const graph::Launch& launch) -> std::uint32_t {
+        return launch.run.rehearsal() ? 0 : parts;
+    };
+    const double everywhere = f.scene != nullptr ? f.description.lights().beyond->irradiance : 0.0;
+    const auto least = static_cast<float>(leastPart * everywhere / (4.0 * std::acos(-1.0)));
+    return { graph::made("parts", walked), value("least", least), reads("tree", tree) };
 }
 
 graph::Handle<Directions> listOfMap(FrameBuilder& f, const char* name, std::size_t numbers, NumbersOfMap found)

@@ -22,6 +22,10 @@ WholeLights wholeLights(FrameBuilder& frame, ReceiverSet& at);
 /// Units of work of these, of a frame's progress.
 double wholeLightUnits(const ShadowSettings& settings);
 
+/// The tree of the frame's map, by the names that kernels walk it with: `parts`, `least` of lobeLight() and `tree`
+/// (kernels/light/light_tree.h). In rehearsals it has no parts.
+Arguments partsOfMap(FrameBuilder& frame);
+
 using NumbersOfMap = std::function<std::vector<float>(const MapPlaces&)>;
 
 /// A list of so many numbers of the frame's map, found when the frame is run.

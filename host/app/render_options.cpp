@@ -303,7 +303,9 @@ void addShadowOptions(CLI::App& parser, RenderOptions& o)
         [&o](const std::string& text) { o.shadowSeconds = positiveNumber("--shadow-time", text, 1e6); });
     addChoice(parser, howGroup, "--shadow-complete", wholeLights,
         "With --shadows subtractive or ratio, all of the map's light: by sums over parts of it, the default; by "
-        "harmonics and means of it; or what the lights bring without shadows",
+        "harmonics and means of it; what the lights bring without shadows; or by a table of normals, as if all were "
+        "seen "
+        "from one direction",
         o.shadowComplete);
     addValue(parser, howGroup, "--shadow-clamp", "on|off",
         "With --shadows subtractive: whether light that is below 0 becomes 0. Default: on",

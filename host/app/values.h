@@ -47,7 +47,7 @@ inline const std::vector<std::string> lightSamplings = { "both", "lights", "dire
 inline const std::vector<std::string> temporals = { "off", "on", "published" };
 inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "flt", "corrected" };
 inline const std::vector<std::string> shadows = { "sampled", "additive", "subtractive", "ratio" };
-inline const std::vector<std::string> wholeLights = { "map", "prefiltered", "lights" };
+inline const std::vector<std::string> wholeLights = { "map", "prefiltered", "lights", "cache" };
 
 /// Throws UsageError of an option, if it is given, as a mistake: for what it has no effect with, and how it would have
 /// one.

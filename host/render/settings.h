@@ -153,6 +153,7 @@ enum class WholeLight {
     Map, ///< sums over parts of the map, as small as each surface needs them (kernels/light/light_tree.h)
     Prefiltered, ///< nine harmonics, and of lobes means over the map (kernels/light/unshadowed_environment.h)
     Lights, ///< what the lights bring without shadows
+    Cache, ///< looked up by the normal, as if everything were seen from one direction (kernels/light/light_cache.cl)
 };
 
 /// Direct light from beyond the scene by lights that stand for its map; docs/shadow-lights.md.

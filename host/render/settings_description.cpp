@@ -79,7 +79,7 @@ void describeShadows(const ShadowSettings& s, Descriptions& out)
         out.emplace_back("shadowScale", shadowScaleText(s));
     }
     if (s.shadows != Shadows::Additive) {
-        constexpr const char* names[] = { "map", "prefiltered", "lights" };
+        constexpr const char* names[] = { "map", "prefiltered", "lights", "cache" };
         out.emplace_back("shadowComplete", names[static_cast<int>(s.whole)]);
     }
     if (s.shadows == Shadows::Subtractive) {

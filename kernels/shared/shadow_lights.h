@@ -20,7 +20,12 @@
 #define WEDGE_SHADOWS_SUBTRACTIVE 2u
 #define WEDGE_SHADOWS_RATIO 3u
 
-/// What counts as the map's whole light: render::WholeLight.
+/// Tables of the map's whole light by the normal (kernels/light/light_cache.cl): texels along either side.
+#define WEDGE_CACHE_SIDE 128u
+/// Of microfacets there are two tables of each exponent: of Gloss::rise 0 and of this.
+#define WEDGE_CACHE_RISE 15.0f
+
+/// What counts as the map's whole light: render::WholeLight, of which Cache finds the same planes as Map.
 #define WEDGE_COMPLETE_MAP 0u
 #define WEDGE_COMPLETE_PREFILTERED 1u
 #define WEDGE_COMPLETE_LIGHTS 2u
