@@ -50,7 +50,7 @@ TEST_CASE("lights for an environment's shadows are told of in images and reports
     CHECK(told(lights, "shadowComplete") == "lights");
     CHECK(told(lights, "shadowClamp") == "on");
     CHECK(contains(readAll(place.path() / "r.json"), "\"clamped_pixels\": 0"));
-    const image::LayeredImage cached = render({ "--shadows", "ratio", "--shadow-complete", "cache" });
+    const image::LayeredImage cached = render({ "--method", "mc", "--shadows", "ratio", "--shadow-complete", "cache" });
     CHECK(told(cached, "shadowComplete") == "cache");
     const image::LayeredImage few =
         render({ "--shadows", "ratio", "--shadow-lights", "30:4", "--shadow-scale", "1/16" });

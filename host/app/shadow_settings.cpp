@@ -72,17 +72,22 @@ TimeModel timesOfFrames(render::Renderer& renderer, const render::Settings& sett
     probe.width = std::max(settings.width / part, part);
     probe.height = std::max(settings.height / part, part);
     probe.crop = {};
+    // Tables of the whole light take as long in frames of any size.
+    const bool tables = settings.environment.shadows.whole == render::WholeLight::Cache;
+    double ofTables = 0;
     const auto seconds = [&](int lights) {
         probe.environment.shadows.lights = lights;
         renderer.render(probe); // the first of a kind takes longer
-        return 1e-3 * renderer.render(probe).deviceMilliseconds;
+        const render::FrameStatistics frame = renderer.render(probe);
+        ofTables = tables ? 1e-3 * frame.milliseconds("whole light") : 0.0;
+        return 1e-3 * frame.deviceMilliseconds - ofTables;
     };
     const double few = seconds(fewLights), many = seconds(manyLights);
     const Window made = render::outputWindow(settings);
     const double pixels =
         static_cast<double>(made.width()) * made.height() / (static_cast<double>(probe.width) * probe.height);
     const double each = std::max(many - few, 1e-3 * many) / (manyLights - fewLights);
-    return { pixels * each, pixels * std::max(few - fewLights * each, 0.0) };
+    return { pixels * each, pixels * std::max(few - fewLights * each, 0.0) + ofTables };
 }
 
 } // namespace
