@@ -18,6 +18,7 @@ scene::Scene of(const std::vector<scene::Material>& materials)
 {
     scene::Scene scene;
     scene.materials = materials;
+    scene.geometry.materialIds.reserve(materials.size());
     for (std::size_t i = 0; i < materials.size(); ++i)
         scene.geometry.materialIds.push_back(static_cast<std::uint32_t>(i));
     scene::Material unused;
@@ -39,8 +40,10 @@ scene::Material lobe(scene::SpecularModel model, float exponent)
 
 std::vector<shared::Gloss> glosses(const scene::Scene& scene)
 {
+    const std::vector<std::uint32_t> all = render::cachedGlosses(scene);
     std::vector<shared::Gloss> out;
-    for (const std::uint32_t packed : render::cachedGlosses(scene))
+    out.reserve(all.size());
+    for (const std::uint32_t packed : all)
         out.push_back(shared::unpackGloss(packed));
     return out;
 }
@@ -67,6 +70,7 @@ TEST_CASE("each lobe of a scene has its table, once, and microfacets two")
 TEST_CASE("more lobes than there are tables lie between those, which are evenly apart")
 {
     std::vector<scene::Material> many;
+    many.reserve(17);
     for (int k = 0; k < 17; ++k)
         many.push_back(lobe(scene::SpecularModel::BlinnPhong, static_cast<float>(3 + k * k)));
     std::vector<shared::Gloss> all = glosses(of(many));
