@@ -5,7 +5,6 @@
 #include "effects/styled_shadows/soft_styles.h"
 #include "effects/styled_shadows/style_knobs.h"
 #include "effects/styled_shadows/styled_lights.h"
-#include "host/graph/lists.h"
 #include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
@@ -22,7 +21,6 @@ using graph::Launch;
 using graph::reads;
 using graph::updates;
 using graph::value;
-using graph::writes;
 
 namespace {
 
