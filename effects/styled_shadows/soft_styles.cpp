@@ -142,16 +142,17 @@ private:
 
     void addStyle(const scene::ShadowStyle& style, const graph::Handle<Share>& change, graph::Handle<Value>& sum)
     {
-        Arguments passes = joined(
-            { f_.rectangle(f_.analysisParams()), reads("objectId", f_.surfaces.objectId), reads("value", seen_.value),
-                change.graph != 0 ? reads("change", change)
-                                  : graph::absent("change", graph::floatPlanes(WEDGE_LEVEL_PLANES)),
-                reads("pixelSize", f_.surfaces.pixelSize) },
-            graph::together("style",
-                { value("channels", f_.specular() ? 2u : 1u), value("penumbra", style.penumbra),
-                    value("softness", softnessOf(style).base), value("largest", largest_),
-                    value("red", brightnessOf(style, 0).base), value("green", brightnessOf(style, 1).base),
-                    value("blue", brightnessOf(style, 2).base), value("weight", style.weight) }));
+        Arguments passes =
+            joined({ f_.rectangle(f_.analysisParams()), value("light", seen_.light), reads("value", seen_.value),
+                       change.graph != 0 ? reads("change", change)
+                                         : graph::absent("change", graph::floatPlanes(WEDGE_LEVEL_PLANES)),
+                       reads("pixelSize", f_.surfaces.pixelSize) },
+                places(f_.surfaces),
+                graph::together("style",
+                    { value("channels", f_.specular() ? 2u : 1u), value("penumbra", style.penumbra),
+                        value("softness", softnessOf(style).base), value("largest", largest_),
+                        value("red", brightnessOf(style, 0).base), value("green", brightnessOf(style, 1).base),
+                        value("blue", brightnessOf(style, 2).base), value("weight", style.weight) }));
         if (style.receivers.empty()) {
             passes.push_back(graph::absent("receivers", graph::counts));
         } else {

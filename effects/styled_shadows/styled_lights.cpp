@@ -113,7 +113,7 @@ void requireSoftStylable(const Settings& settings, const PreparedScene& scene)
     if (settings.method != Method::AxisAligned || settings.filtering == Filtering::None
         || settings.shading == Shading::Inside) {
         throw UsageError("styles of soft shadows are drawn of filtered shadows alone", name(*light),
-            "choose --method aaf without --filter none and --falloff inside, or add --no-style");
+            "choose --method aaf, without --filter none or --falloff inside, or add --no-style");
     }
 }
 

@@ -115,7 +115,8 @@ WEDGE_FN float styledChange(
 
 /// What a style makes of what is seen of a light, s = left + (1 - left) v', less what is seen, v.
 ///
-/// in      p, objectId; value: v, of matt surfaces and, where `channels` is 2, of lobes; change: of addLevel(); absent:
+/// in      p, position, normal, objectId; light; value: v, of matt surfaces and, where `channels` is 2, of lobes;
+/// change: of addLevel(); absent:
 ///         none; pixelSize: metres; largest: metres, of distances; softness: metres; penumbra: 0 to 1, how wide it is
 ///         beside what it was; red, green, blue: left, in shadow; weight; receivers: 1 or 0 for each id below
 ///         `objects`, where there is not the style
@@ -125,7 +126,9 @@ WEDGE_FN float styledChange(
 __kernel void softStyle(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    bool styled = objectId[i] != 0u;
+    // Normal maps may bring light to what faces away, and that is no shadow.
+    bool styled = objectId[i] != 0u
+        && mayBeLit(light, loadVec(position, p.planeSize, i), loadVec(WEDGE_UNMAPPED(p.planeSize), p.planeSize, i));
 #if HAS_receivers
     styled = styled && objectId[i] < objects && receivers[objectId[i]] != 0u;
 #endif
