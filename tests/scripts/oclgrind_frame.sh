@@ -138,8 +138,9 @@ check styled_lists "$work/styled_lists.toml" --traversal wide --size 19x13 --met
 sed -e "s#\"meshes/#\"$scenes/meshes/#" -e 's/^softness = .*/&\nkey = [{ time = 0 }, { time = 1, inflation = 0.1 }]/' \
     "$scenes/styled.toml" >"$work/styled_keys.toml"
 check styled_keys "$work/styled_keys.toml" --traversal wide --size 19x13 --method mc --spp 1
-# Soft shadows in a style, on all and on some things.
-sed -e "s#\"meshes/#\"$scenes/meshes/#" -e 's/^type = "quad"/&\nstyle = [{ inflation = 0.1, softness = 0.1, abstraction = 0.2, weight = 0.5 }, { penumbra = 0, inflation = 0.1, weight = 0.5 }]/' \
+# Soft shadows in a style, of matt surfaces and of lobes.
+sed -e "s#\"meshes/#\"$scenes/meshes/#" -e 's/^diffuse = .*/&\nmodel = "phong"\nspecular = 0.2\nexponent = 20/' \
+    -e 's/^type = "quad"/&\nstyle = [{ inflation = 0.1, softness = 0.1, abstraction = 0.2, weight = 0.5 }, { penumbra = 0, inflation = 0.1, weight = 0.5 }]/' \
     "$scenes/penumbra.toml" >"$work/styled_soft.toml"
 check styled_soft "$work/styled_soft.toml" --traversal wide --size 11x9 --method aaf --spp 16
 check styled_scalar "$scenes/styled.toml" --traversal scalar --size 9x7 --method mc --spp 1
