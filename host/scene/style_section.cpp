@@ -73,6 +73,16 @@ Knob<glm::vec3> readBrightness(TableReader& table, const Knob<glm::vec3>& before
     return knob;
 }
 
+/// Names under the key, each once and in one order, so that lists of the same names are equal.
+std::vector<std::string> readNames(TableReader& table, const std::string& key)
+{
+    std::vector<std::string> names = table.names(key);
+    std::ranges::sort(names);
+    const auto rest = std::ranges::unique(names);
+    names.erase(rest.begin(), rest.end());
+    return names;
+}
+
 /// What a table says of knobs; of others it leaves the style's alone.
 void readKnobs(TableReader& table, ShadowStyle& style)
 {
@@ -139,8 +149,8 @@ ShadowStyle readStyle(TableReader& table, ShadowKind kind, bool several, double 
     const std::optional<double> weight = table.number("weight", 0.0, 1.0);
     style.weight = static_cast<float>(several ? table.require("weight", weight) : weight.value_or(1.0));
     style.keepArea = table.boolean("keep_area").value_or(style.keepArea);
-    style.casters = table.names("casters");
-    style.receivers = table.names("receivers");
+    style.casters = readNames(table, "casters");
+    style.receivers = readNames(table, "receivers");
     readKnobs(table, style);
     checkKind(table, style, kind);
     readKeys(table, style, kind, time);
@@ -160,6 +170,24 @@ void checkNames(TableReader& style, const std::string& key, const std::set<std::
     }
 }
 
+/// Throws where one object is among the casters of two of a light's lists: it would throw its shadow twice.
+void checkCasters(TableReader& light, const std::vector<std::string>& objects)
+{
+    std::set<std::set<std::string>> lists;
+    for (TableReader& style : light.tables("style")) {
+        const std::vector<std::string> casters = readNames(style, "casters");
+        if (!casters.empty())
+            lists.emplace(casters.begin(), casters.end());
+    }
+    if (lists.size() < 2)
+        return;
+    for (const std::string& object : objects) {
+        if (std::ranges::count_if(lists, [&](const auto& list) { return isCalledOneOf(object, list); }) > 1)
+            light.fail("style", "has an object among the casters of two lists", fmt::format("'{}'", object),
+                "name it in one of them, or give the styles the same casters");
+    }
+}
+
 bool changesNothing(const ShadowStyle& style)
 {
     const Knob<float> none;
@@ -175,11 +203,12 @@ std::vector<ShadowStyle> readStyles(TableReader& light, ShadowKind kind, double 
     std::map<std::vector<std::string>, double> weights; // of those with the same casters
     std::map<std::vector<std::string>, int> count;
     for (TableReader& table : tables)
-        ++count[table.names("casters")];
+        ++count[readNames(table, "casters")];
     std::vector<ShadowStyle> styles;
     styles.reserve(tables.size());
     for (TableReader& table : tables) {
-        const ShadowStyle& style = styles.emplace_back(readStyle(table, kind, count[table.names("casters")] > 1, time));
+        const ShadowStyle& style =
+            styles.emplace_back(readStyle(table, kind, count[readNames(table, "casters")] > 1, time));
         weights[style.casters] += double { style.weight };
     }
     for (const auto& [casters, sum] : weights) {
@@ -204,6 +233,7 @@ void checkObjectNames(TableReader& root, const Geometry& geometry)
                     checkNames(style, key, *known);
             }
         }
+        checkCasters(light, geometry.objectNames);
     }
 }
 
