@@ -204,7 +204,7 @@ WEDGE_FN float occluderOf(SeenShadow seen, const EdgeCell* cell)
 {
     float sum = 0.0f, corners = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
-        const bool hidden = seen.matte[cell->corner[k]] < 0.5f;
+        const bool hidden = !(seen.matte[cell->corner[k]] > 0.5f);
         sum += hidden ? seen.occluder[cell->corner[k]] : 0.0f;
         corners += hidden ? 1.0f : 0.0f;
     }

@@ -42,7 +42,7 @@ __kernel void countAreas(PARAMETERS)
 #else
                 own[order >> WEDGE_AREA_SHIFT] += area;
 #endif
-                own[v < 0.5f ? WEDGE_AREA_BINS : WEDGE_AREA_BINS + 1u] += area;
+                own[!(v > 0.5f) ? WEDGE_AREA_BINS : WEDGE_AREA_BINS + 1u] += area;
             }
         }
     }
