@@ -33,18 +33,25 @@ bvh::Bvh partOf(const scene::Geometry& g, bool casters)
     return bvh::build({ g.positions, indices });
 }
 
+/// The pass that finds both mattes, with what primary rays met.
+PassBench benchOfCasters(DeclaredFrame& frame)
+{
+    PassBench primary(frame, "primary"), bench(frame, "shadowOfCasters");
+    primary.run();
+    for (const char* name : { "position", "normal", "origin" })
+        bench.plane(name, primary.read<float>(name));
+    for (const char* name : { "geometric", "objectId", "gloss" })
+        bench.plane(name, primary.read<std::uint32_t>(name));
+    return bench;
+}
+
 } // namespace
 
 TEST_CASE("shadowOfCasters: what casters hide, and what all other things do, each as if alone")
 {
     onEveryDevice([](const device::Device& device) {
         DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
-        PassBench primary(frame, "primary"), bench(frame, "shadowOfCasters");
-        primary.run();
-        for (const char* name : { "position", "normal", "origin" })
-            bench.plane(name, primary.read<float>(name));
-        for (const char* name : { "geometric", "objectId", "gloss" })
-            bench.plane(name, primary.read<std::uint32_t>(name));
+        PassBench bench = benchOfCasters(frame);
         CHECK(bench.own<std::uint32_t>("objects") == 6);
         bench.plane("casters", std::vector<std::uint32_t> { 0, 0, 0, 0, 1, 1 });
         bench.plane("matte", std::vector<float>(frame.layout.size, WEDGE_MATTE_UNKNOWN));
@@ -144,12 +151,7 @@ TEST_CASE("shadowOfCasters: what casts elsewhere hides nothing")
 {
     onEveryDevice([](const device::Device& device) {
         DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
-        PassBench primary(frame, "primary"), bench(frame, "shadowOfCasters");
-        primary.run();
-        for (const char* name : { "position", "normal", "origin" })
-            bench.plane(name, primary.read<float>(name));
-        for (const char* name : { "geometric", "objectId", "gloss" })
-            bench.plane(name, primary.read<std::uint32_t>(name));
+        PassBench bench = benchOfCasters(frame);
         const auto mattesOf = [&](std::uint32_t others) {
             const std::vector<float> unknown(frame.layout.size, WEDGE_MATTE_UNKNOWN);
             bench.plane("casters", std::vector<std::uint32_t> { others, others, others, others, 1, 1 });

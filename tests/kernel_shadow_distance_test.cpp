@@ -14,16 +14,9 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
         std::mt19937 random(1);
         for (std::size_t i = 0; i < pieces.size(); i += 5)
             pieces[i].normal = unitVector(random); // most of which no surface faces as
-        PassBench bound(traced.frame, "boundEdges"), bench(traced.frame, "shadowDistance");
-        const std::vector<float> edges = listOf(pieces, bench.elements("edges"));
-        const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
-        bound.plane("edges", edges);
-        bound.plane("listed", listed);
-        bound.run();
+        PassBench bench(traced.frame, "shadowDistance");
         traced.give(bench);
-        bench.plane("edges", edges);
-        bench.plane("listed", listed);
-        bench.plane("boxes", bound.read<float>("boxes"));
+        giveEdges(traced, bench, pieces);
         bench.run();
         const double largest = double { bench.own<float>("largest") };
         CHECK(largest == doctest::Approx(2 * (inflation + 0.5 * softness + 3 * abstraction)));
@@ -53,16 +46,9 @@ TEST_CASE("shadowDistance: a pixel is as near to an edge where styles tell kilom
         Traced traced(device);
         const Seen s(traced);
         const std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
-        PassBench bound(traced.frame, "boundEdges"), bench(traced.frame, "shadowDistance");
-        const std::vector<float> edges = listOf(pieces, bench.elements("edges"));
-        const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
-        bound.plane("edges", edges);
-        bound.plane("listed", listed);
-        bound.run();
+        PassBench bench(traced.frame, "shadowDistance");
         traced.give(bench);
-        bench.plane("edges", edges);
-        bench.plane("listed", listed);
-        bench.plane("boxes", bound.read<float>("boxes"));
+        giveEdges(traced, bench, pieces);
         for (const float largest : { 3e4f, 9e12f })
             for (const bool published : { false, true }) {
                 CAPTURE(largest);

@@ -135,16 +135,9 @@ TEST_CASE("shadowDistance: what hides the light, from shadows' edges on and deep
         Traced traced(device, byOccluder());
         const Seen s(traced);
         std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
-        PassBench bound(traced.frame, "boundEdges"), bench(traced.frame, "shadowDistance");
-        const std::vector<float> edges = listOf(pieces, bench.elements("edges"), true);
-        const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
-        bound.plane("edges", edges);
-        bound.plane("listed", listed);
-        bound.run();
+        PassBench bench(traced.frame, "shadowDistance");
         traced.give(bench);
-        bench.plane("edges", edges);
-        bench.plane("listed", listed);
-        bench.plane("boxes", bound.read<float>("boxes"));
+        giveEdges(traced, bench, pieces, true);
         const float largest = 0.15f;
         bench.value("largest", largest);
         const double farthest = double { bench.own<float>("farthest") };

@@ -161,6 +161,20 @@ inline std::vector<float> listOf(const std::vector<Piece>& pieces, std::size_t r
     return out;
 }
 
+/// Gives a pass these pieces of edge and, as the device makes them, boxes around them. by: as of listOf()
+inline void giveEdges(Traced& traced, PassBench& bench, const std::vector<Piece>& pieces, bool by = false)
+{
+    PassBench bound(traced.frame, "boundEdges");
+    const std::vector<float> edges = listOf(pieces, bench.elements("edges"), by);
+    const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
+    for (PassBench* pass : { &bound, &bench }) {
+        pass->plane("edges", edges);
+        pass->plane("listed", listed);
+    }
+    bound.run();
+    bench.plane("boxes", bound.read<float>("boxes"));
+}
+
 inline std::vector<Piece> joinedPieces(const std::vector<std::vector<Piece>>& tiles)
 {
     std::vector<Piece> out;
