@@ -17,21 +17,21 @@ namespace {
 constexpr int width = 33, height = 7;
 
 /// Something specular under a lamp whose shadows are larger, softer and rounder on the first object.
-scene::Scene styledScene(bool twoSided)
+scene::Scene styledScene(bool twoSided, float penumbra)
 {
     scene::Scene scene = smallScene();
     scene.materials[0].specular = glm::vec3(0.3f);
     scene.areaLights = { lamp(scene::LightProfile::Uniform, twoSided) };
     scene::ShadowStyle style = floors::style(0.1f, 0.05f, 0.1f, 0.2f);
-    style.penumbra = 0.5f;
+    style.penumbra = penumbra;
     scene.areaLights.front().styles = { style };
     return scene;
 }
 
 class LevelFrame : public DeclaredFrame {
 public:
-    explicit LevelFrame(const device::Device& device, bool twoSided = false)
-        : DeclaredFrame(device, styledScene(twoSided), sized(render::axisAligned(16), width, height))
+    explicit LevelFrame(const device::Device& device, bool twoSided = false, float penumbra = 0.5f)
+        : DeclaredFrame(device, styledScene(twoSided, penumbra), sized(render::axisAligned(16), width, height))
     {
     }
     const scene::AreaLight& light() const { return scene().areaLights.front(); }
@@ -124,7 +124,7 @@ TEST_CASE("addLevel: the mean of the transfer function over distances that are l
             pass.value("beforeThem", 0.125f);
             pass.value("afterThem", 0.25f);
             pass.value("end", 0.5f);
-            pass.value("levels", 4.0f);
+            pass.value("pairs", 4.0f);
             pass.run();
             const Planes<float> change = pass.pixels<float>("change");
             const Planes<float> a = planesOf(frame.layout, before), b = planesOf(frame.layout, plain);
@@ -141,7 +141,9 @@ TEST_CASE("addLevel: the mean of the transfer function over distances that are l
                 REQUIRE(std::abs(change.at(x, y, WEDGE_LEVEL_PLAIN) - asIs) < 3e-4); // steps of the oracle's
                 REQUIRE(std::abs(change.at(x, y, WEDGE_LEVEL_STYLED) - seen(from, to, soft)) < 3e-4);
                 REQUIRE(change.at(x, y, WEDGE_LEVEL_MOVED)
-                    == doctest::Approx(std::abs(to - double { b.at(x, y) }) / 4).epsilon(1e-4));
+                    == doctest::Approx(
+                        (std::abs(to - double { b.at(x, y) }) + std::abs(from - double { a.at(x, y) })) / 8)
+                           .epsilon(1e-4));
                 REQUIRE(change.at(x, y, WEDGE_LEVEL_NEAREST) == std::min(std::abs(a.at(x, y)), std::abs(b.at(x, y))));
             });
             // Once more: sums, and the nearest of all.
@@ -161,7 +163,36 @@ TEST_CASE("addLevel: the mean of the transfer function over distances that are l
     });
 }
 
-TEST_CASE("softStyle: what levels say, and what they leave where the style moves nothing or no edge is near")
+TEST_CASE("addLevel of a single level: on one side of its edge all of the light is seen, on the other nothing")
+{
+    onEveryDevice([](const device::Device& device) {
+        LevelFrame frame(device, false, 0);
+        PassBench pass(frame, "addLevel");
+        CHECK_FALSE(pass.has("previous"));
+        CHECK(pass.own<float>("both") + pass.own<float>("beforeThem") + pass.own<float>("afterThem") == 1.0f);
+        std::mt19937 random(5);
+        const std::vector<float> plain = someNumbers(random, frame.layout.size);
+        const std::vector<float> styled = someNumbers(random, frame.layout.size);
+        pass.plane("distance", plain);
+        pass.plane("smoothed", styled);
+        pass.plane("zeros", std::vector<float> { 0.05f, 7 });
+        const float soft = 0.3f, inflation = 0.2f;
+        pass.value("inflation", inflation);
+        pass.value("softness", soft);
+        pass.run();
+        const Planes<float> change = pass.pixels<float>("change");
+        const Planes<float> distance = planesOf(frame.layout, plain), moved = planesOf(frame.layout, styled);
+        everyPixel(frame.layout, [&](int x, int y) {
+            const double d = double { distance.at(x, y) }, to = double { moved.at(x, y) } - 0.05 - double { inflation };
+            REQUIRE(change.at(x, y, WEDGE_LEVEL_PLAIN) == (d > 0 ? 1.0f : 0.0f));
+            REQUIRE(std::abs(change.at(x, y, WEDGE_LEVEL_STYLED) - transferred(to, double { soft })) < 1e-5);
+            REQUIRE(change.at(x, y, WEDGE_LEVEL_MOVED) == doctest::Approx(std::abs(to - d)).epsilon(1e-4));
+            REQUIRE(change.at(x, y, WEDGE_LEVEL_NEAREST) == std::abs(distance.at(x, y)));
+        });
+    });
+}
+
+TEST_CASE("softStyle: what levels say, where the style moves something and an edge is near")
 {
     onEveryDevice([](const device::Device& device) {
         LevelFrame frame(device);
@@ -199,8 +230,9 @@ TEST_CASE("softStyle: what levels say, and what they leave where the style moves
                 const auto level = [&](std::size_t plane) { return double { change.at(x, y, plane) }; };
                 const double moved = std::min((level(WEDGE_LEVEL_MOVED) + 0.005) / 0.5, 1.0);
                 const double near = std::clamp(2 - 2 * level(WEDGE_LEVEL_NEAREST) / 0.8, 0.0, 1.0);
-                const double rest = base - level(WEDGE_LEVEL_PLAIN);
-                const double lit = std::clamp(level(WEDGE_LEVEL_STYLED) + rest * (1 - moved * near), 0.0, 1.0);
+                const double plain = level(WEDGE_LEVEL_PLAIN);
+                const double step = level(WEDGE_LEVEL_STYLED) - plain - moved * (base - plain);
+                const double lit = std::clamp(base + near * step, 0.0, 1.0);
                 const double k = left[c % 3], more = weight * (k + (1 - k) * lit - is);
                 REQUIRE(seen.at(x, y, c)
                     == doctest::Approx(0.5 + (object.at(x, y) != 0 && normals.at(x, y, 1) > 0 ? more : 0.0))

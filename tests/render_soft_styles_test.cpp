@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -18,8 +19,15 @@ const double softPixel = 2 * eyeHeight * std::tan(std::numbers::pi / 12) / high;
 
 render::Settings filtered(int spp = 64) { return sized(render::axisAligned(spp), wide, high); }
 
+/// A board with sides along x and z.
+struct Board {
+    glm::vec3 centre { -10, 2, 0 };
+    float half = 10; ///< of each side
+};
+
 /// A lamp of 0.6 m, 4 m above the floor; a board at half of that hides what has x < 0, with a penumbra of 0.6 m.
-scene::Scene underLamp(const std::vector<scene::ShadowStyle>& styles, bool board = true, bool specular = false)
+scene::Scene underLamp(
+    const std::vector<scene::ShadowStyle>& styles, std::optional<Board> board = Board(), bool specular = false)
 {
     SceneBuilder b;
     b.scene.materials[0].diffuse = glm::vec3(0.8f);
@@ -28,7 +36,7 @@ scene::Scene underLamp(const std::vector<scene::ShadowStyle>& styles, bool board
     b.quad({ 0, 0, 0 }, { 0, 0, 10 }, { 10, 0, 0 });
     b.newObject();
     if (board)
-        b.quad({ -10, 2, 0 }, { 0, 0, 10 }, { 10, 0, 0 });
+        b.quad(board->centre, { 0, 0, board->half }, { board->half, 0, 0 });
     b.newObject();
     b.camera({ 0, eyeHeight, 0 }, { 0, 0, 0 }, { 0, 0, -1 }, 30);
     scene::AreaLight& light = b.light({ 0, 4, 0 }, { 0.3f, 0, 0 }, { 0, 0, 0.3f }, scene::LightProfile::Uniform, 10);
@@ -79,15 +87,24 @@ scene::ShadowStyle penumbra(float of, float inflation = 0)
 TEST_CASE("a penumbra moves as far as its inflation says, with its profile")
 {
     onEveryDevice([](const device::Device& device) {
-        const std::vector<float> open = frameOf(device, underLamp({}, false));
-        const std::vector<double> plain = seenByColumn(frameOf(device, underLamp({})), open);
-        for (const float inflation : { 0.15f, -0.2f }) {
-            CAPTURE(inflation);
-            const std::vector<double> s = seenByColumn(frameOf(device, underLamp({ style(inflation) })), open);
-            for (int x = 30; x < wide - 30; ++x) {
-                CAPTURE(x);
-                REQUIRE(std::abs(s[static_cast<std::size_t>(x)] - between(plain, x - inflation / softPixel))
-                    < 0.016); // less than half a pixel
+        for (const auto profile : { scene::LightProfile::Uniform, scene::LightProfile::Gaussian }) {
+            const auto of = [&](const std::vector<scene::ShadowStyle>& styles, std::optional<Board> board = Board()) {
+                scene::Scene scene = underLamp(styles, board);
+                scene.areaLights[0].profile = profile;
+                scene.areaLights[0].twoSided = profile == scene::LightProfile::Uniform; // to the floor
+                return frameOf(device, scene);
+            };
+            const std::vector<float> open = of({}, {});
+            const std::vector<double> plain = seenByColumn(of({}), open);
+            CHECK(plain[wide - 1] > 0.99);
+            for (const float inflation : { 0.15f, -0.2f }) {
+                CAPTURE(inflation);
+                const std::vector<double> s = seenByColumn(of({ style(inflation) }), open);
+                for (int x = 30; x < wide - 30; ++x) {
+                    CAPTURE(x);
+                    REQUIRE(std::abs(s[static_cast<std::size_t>(x)] - between(plain, x - inflation / softPixel))
+                        < 0.016); // less than half a pixel
+                }
             }
         }
     });
@@ -96,7 +113,7 @@ TEST_CASE("a penumbra moves as far as its inflation says, with its profile")
 TEST_CASE("a penumbra narrows about its middle to what is said, down to an edge")
 {
     onEveryDevice([](const device::Device& device) {
-        const std::vector<float> open = frameOf(device, underLamp({}, false)), image = frameOf(device, underLamp({}));
+        const std::vector<float> open = frameOf(device, underLamp({}, {})), image = frameOf(device, underLamp({}));
         const auto atMiddle = [&](float of, double v) { return std::clamp((v - 0.5) / double { of } + 0.5, 0.0, 1.0); };
         const auto narrow = [&](float of) { return frameOf(device, underLamp({ penumbra(of) })); };
         const std::vector<float> half = narrow(0.5f), none = narrow(0);
@@ -122,7 +139,7 @@ TEST_CASE("a penumbra narrows about its middle to what is said, down to an edge"
 TEST_CASE("softness and abstraction keep the middle of a straight penumbra, and what is left in shadow is a colour")
 {
     onEveryDevice([](const device::Device& device) {
-        const std::vector<float> open = frameOf(device, underLamp({}, false));
+        const std::vector<float> open = frameOf(device, underLamp({}, {}));
         const std::vector<double> plain = seenByColumn(frameOf(device, underLamp({})), open);
         const auto half = [](const std::vector<double>& v) {
             std::size_t x = 0;
@@ -147,13 +164,133 @@ TEST_CASE("softness and abstraction keep the middle of a straight penumbra, and 
     });
 }
 
+TEST_CASE("where half of the light is seen and no edge is near nothing moves")
+{
+    onEveryDevice([](const device::Device& device) {
+        // Right under the lamp a board hides half of it from all of the floor.
+        const auto scene = [](const std::vector<scene::ShadowStyle>& styles) {
+            return underLamp(styles, Board { .centre = { -10, 3.98f, 0 } });
+        };
+        const std::vector<float> plain = frameOf(device, scene({}));
+        const std::vector<double> seen = seenByColumn(plain, frameOf(device, underLamp({}, {})));
+        CHECK(*std::ranges::min_element(seen) > 0.45);
+        CHECK(*std::ranges::max_element(seen) < 0.55);
+        CHECK(sameBits(frameOf(device, scene({ style(0.4f, 0.1f, 0.1f) })), plain));
+    });
+}
+
+TEST_CASE("a smoothed soft shadow takes as much light as before, unless that is not wanted")
+{
+    onEveryDevice([](const device::Device& device) {
+        const auto missing = [&](const std::vector<scene::ShadowStyle>& styles) {
+            const std::vector<float> open = frameOf(device, underLamp({}, {}));
+            const std::vector<float> image =
+                frameOf(device, underLamp(styles, Board { .centre = { 0, 1, 0 }, .half = 0.15f }));
+            return std::accumulate(open.begin(), open.end(), 0.0) - std::accumulate(image.begin(), image.end(), 0.0);
+        };
+        scene::ShadowStyle kept = style(0, 0, 0.12f), not_ = kept;
+        not_.keepArea = false;
+        const double plain = missing({});
+        CHECK(missing({ kept }) == doctest::Approx(plain).epsilon(0.08));
+        CHECK(missing({ not_ }) < 0.75 * plain);
+    });
+}
+
+TEST_CASE("penumbras of one light share it, go over into each other, and leave what brightness says")
+{
+    onEveryDevice([](const device::Device& device) {
+        const std::vector<float> open = frameOf(device, underLamp({}, {}));
+        const auto shared = [&](scene::ShadowStyle a, scene::ShadowStyle b) {
+            a.weight = b.weight = 0.5f;
+            return frameOf(device, underLamp({ a, b }));
+        };
+        const auto most = [&](const std::vector<float>& a, const std::vector<float>& b) {
+            double out = 0;
+            for (std::size_t i = 0; i < a.size(); ++i)
+                out = std::max(out, std::abs(double { a[i] } - double { b[i] }) / double { open[i] });
+            return out;
+        };
+        const auto mixed = [](std::vector<float> a, const std::vector<float>& b, float share) {
+            for (std::size_t i = 0; i < a.size(); ++i)
+                a[i] += share * (b[i] - a[i]);
+            return a;
+        };
+        // Of one inflation, so that both tell the same distances apart.
+        const std::vector<float> wide = frameOf(device, underLamp({ penumbra(1, 0.1f) }));
+        const std::vector<float> none = frameOf(device, underLamp({ penumbra(0, 0.1f) }));
+        CHECK(most(wide, none) > 0.2);
+        CHECK(most(shared(penumbra(1, 0.1f), penumbra(0, 0.1f)), mixed(wide, none, 0.5f)) < 1e-3);
+        // Of several, as keys bring them together.
+        const std::vector<float> same = shared(penumbra(0.5f, 0.3f), penumbra(0.5f, 0.02f));
+        CHECK(most(same, shared(penumbra(0.5f, 0.3f), penumbra(0.5001f, 0.02f))) < 1e-3);
+        scene::ShadowStyle left = penumbra(0.5f, 0.1f);
+        left.brightness = glm::vec3(0.25f);
+        CHECK(most(frameOf(device, underLamp({ left })),
+                  mixed(frameOf(device, underLamp({ penumbra(0.5f, 0.1f) })), open, 0.25f))
+            < 0.01);
+    });
+}
+
+TEST_CASE("two lights have each their style")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::ShadowStyle first = style(0.15f), second = style(-0.1f, 0.2f);
+        const auto both = [](const std::vector<scene::ShadowStyle>& a, const std::vector<scene::ShadowStyle>& b) {
+            scene::Scene scene = underLamp(a);
+            scene.areaLights.push_back(scene.areaLights[0]);
+            scene.areaLights[1].centre.x = -0.4f;
+            scene.areaLights[1].styles = b;
+            return scene;
+        };
+        const std::vector<float> none = frameOf(device, both({}, {})),
+                                 all = frameOf(device, both({ first }, { second }));
+        const std::vector<float> one = frameOf(device, both({ first }, {})),
+                                 other = frameOf(device, both({}, { second }));
+        double moved = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double sum = double { one[i] } + double { other[i] } - double { none[i] };
+            REQUIRE(double { all[i] } == doctest::Approx(sum).epsilon(1e-3));
+            moved = std::max(moved, std::abs(double { other[i] } - double { none[i] }));
+        }
+        CHECK(moved > 0.005);
+    });
+}
+
+TEST_CASE("layers show what is seen of a quad with a style, and how far it is to where that is half")
+{
+    onEveryDevice([](const device::Device& device) {
+        const auto shown = [&](scene::Scene scene, const std::string& name) {
+            render::Renderer renderer(scene, device, renderOptions());
+            renderer.render(filtered(), {}, true);
+            return std::pair(pixels(renderer, "shadowMatte." + name, { 0, 0, wide, high }),
+                pixels(renderer, "shadowDistance." + name, { 0, 0, wide, high }));
+        };
+        const std::vector<double> seen =
+            seenByColumn(frameOf(device, underLamp({})), frameOf(device, underLamp({}, {})));
+        const auto [matte, distance] = shown(underLamp({ style(0.2f) }), "quad1");
+        for (std::size_t x = 0; x < wide; ++x) {
+            CAPTURE(x);
+            CHECK(std::abs(double { matte[high / 2 * wide + x] } - seen[x]) < 0.05);
+            const double d = (static_cast<double>(x) + 0.5 - wide / 2.0) * softPixel;
+            if (std::abs(d) < 0.4) // farther away the edge, of which a metre is seen, ends too early
+                CHECK(std::abs(double { distance[high / 2 * wide + x] } - d) < 0.03);
+        }
+        // By its name, if that is its own.
+        scene::Scene named = underLamp({ style(0.2f) });
+        named.areaLights[0].name = "lamp";
+        CHECK(sameBits(shown(named, "lamp").first, matte));
+        named.areaLights.push_back(named.areaLights[0]);
+        CHECK(shown(named, "quad2").first.size() == matte.size());
+    });
+}
+
 TEST_CASE("soft shadows grow with inflation, everywhere")
 {
     onEveryDevice([](const device::Device& device) {
-        const std::vector<float> open = frameOf(device, underLamp({}, false, true));
+        const std::vector<float> open = frameOf(device, underLamp({}, {}, true));
         std::vector<float> before;
         for (const float inflation : { -0.2f, -0.05f, 0.0f, 0.05f, 0.2f }) {
-            const std::vector<float> image = frameOf(device, underLamp({ style(inflation, 0.01f) }, true, true));
+            const std::vector<float> image = frameOf(device, underLamp({ style(inflation, 0.01f) }, Board(), true));
             // In all by some of what they move by.
             const auto sum = [](const std::vector<float>& of) { return std::accumulate(of.begin(), of.end(), 0.0); };
             CHECK((before.empty() || sum(image) < sum(before) - 0.005 * sum(open)));
@@ -174,19 +311,19 @@ TEST_CASE("a soft style that changes nothing has the bits of none, on matt surfa
         elsewhere.receivers = { "object" };
         for (const bool specular : { false, true }) {
             CAPTURE(specular);
-            const std::vector<float> plain = frameOf(device, underLamp({}, true, specular));
-            scene::Scene others = underLamp({ elsewhere }, true, specular);
+            const std::vector<float> plain = frameOf(device, underLamp({}, Board(), specular));
+            scene::Scene others = underLamp({ elsewhere }, Board(), specular);
             others.geometry.objectNames = { "floor", "object" };
             CHECK(sameBits(frameOf(device, others), plain));
             for (const auto& styles : { std::vector { scene::ShadowStyle() }, { keys }, { keys, keys } }) {
                 std::vector<scene::ShadowStyle> shared = styles;
                 for (scene::ShadowStyle& each : shared)
                     each.weight = 1.0f / static_cast<float>(shared.size());
-                CHECK(sameBits(frameOf(device, underLamp(shared, true, specular)), plain));
+                CHECK(sameBits(frameOf(device, underLamp(shared, Board(), specular)), plain));
             }
             render::Settings without = filtered();
             without.styles = false;
-            CHECK(sameBits(frameOf(device, underLamp({ style(0.2f) }, true, specular), without), plain));
+            CHECK(sameBits(frameOf(device, underLamp({ style(0.2f) }, Board(), specular), without), plain));
         }
     });
 }

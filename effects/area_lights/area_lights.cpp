@@ -4,6 +4,8 @@
 #include "effects/area_lights/light_waves.h"
 #include "effects/area_lights/maaf.h"
 
+#include <optional>
+
 namespace wedge::render {
 namespace {
 
@@ -16,9 +18,9 @@ public:
         std::vector<Term> out;
         const std::vector<OwnLight>& lights = scene.directLights().own;
         for (std::uint32_t i = 0; settings.integrator == Integrator::Path && i < lights.size(); ++i) {
-            const scene::AreaLight& quad = lights[i].quad;
+            const std::optional<std::uint32_t> quad = lights[i].number;
             const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1),
-                quad.styles, changerOfSeen(settings, quad) };
+                quad.value_or(0), quad ? changerOfVisibility(settings, scene.areaLights[*quad]) : nullptr };
             out.push_back({ .name = light.name,
                 .part = Part::Direct,
                 .workUnits = static_cast<double>(settings.spp),

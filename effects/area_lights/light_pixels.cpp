@@ -34,7 +34,7 @@ LightPixels::LightPixels(FrameBuilder& frame, const TermLight& light)
             .part = frame.specular() ? shortPairs : shortFloats })
     , index_(light.number)
     , term_(light.name)
-    , styles_(light.styles)
+    , quad_(light.quad)
     , changer_(light.changer)
     , light_(light.light)
     , channels_(frame.specular() ? 2 : 1)
@@ -124,7 +124,10 @@ void LightPixels::addFiltered()
     shade(filtered.value, analysed());
     shade(value_, [state = state()](const Run&) { return !state->analysed; });
     if (changer_ != nullptr) {
-        g_.only("change of light", analysed(), [&] { changeSeen(filtered.value); });
+        g_.only("change of light", analysed(), [&] { changeVisibility(filtered.value); });
+        if (f_.layers != nullptr) {
+            changer_->showVisibility(f_, { light_, quad_, filtered.value }, analysed());
+        }
     }
 }
 
@@ -171,9 +174,9 @@ void LightPixels::shade(const graph::Handle<Value>& shown, const std::function<b
     }
 }
 
-void LightPixels::changeSeen(const graph::Handle<Value>& shown)
+void LightPixels::changeVisibility(const graph::Handle<Value>& shown)
 {
-    const graph::Handle<Value> more = changer_->changeSeen(f_, { light_, styles_, shown });
+    const graph::Handle<Value> more = changer_->changeVisibility(f_, { light_, quad_, shown });
     graph::Handle<Radiance>& change = f_.totals.direct.change;
     f_.blocks("composite", PassKind::Composite, { composite, "addDiffuseChange" },
         joined(ofMatt(), Arguments { reads("more", more), updates("change", change) }));

@@ -42,7 +42,7 @@ private:
     void filter(Gathered& filtered);
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const graph::Run&)>& condition);
     /// Adds to the sum's change what an effect makes of what is seen.
-    void changeSeen(const graph::Handle<Value>& shown);
+    void changeVisibility(const graph::Handle<Value>& shown);
     /// What shading goes by of matt surfaces, and of lobes.
     Arguments ofMatt() const;
     Arguments ofLobes() const;
@@ -58,7 +58,7 @@ private:
 
     std::uint32_t index_;
     std::string term_;
-    std::span<const scene::ShadowStyle> styles_;
+    std::uint32_t quad_; ///< its number among the scene's area lights, where there is a changer
     const Effect* changer_; ///< of what is seen; null: nothing changes it
     shared::AreaLight light_;
     std::uint32_t channels_; ///< of what is seen: diffuse, and where something is specular that, too

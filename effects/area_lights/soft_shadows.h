@@ -7,7 +7,6 @@
 #include "kernels/shared/light.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 namespace wedge::render {
@@ -17,8 +16,8 @@ struct TermLight {
     std::uint32_t number = 0; ///< of DirectLights::own
     shared::AreaLight light {};
     std::string name; ///< of its term
-    std::span<const scene::ShadowStyle> styles; ///< the prepared scene's
-    const Effect* changer = nullptr; ///< of what is seen of it
+    std::uint32_t quad = 0; ///< its number among the scene's area lights; where something changes what is seen of it
+    const Effect* changer = nullptr; ///< what does; null: nothing
 };
 
 /// What the analysis of a light needs besides where pixels lie.

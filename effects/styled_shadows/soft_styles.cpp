@@ -3,15 +3,20 @@
 #include "effects/styled_shadows/object_list.h"
 #include "effects/styled_shadows/shadow_distances.h"
 #include "effects/styled_shadows/style_knobs.h"
+#include "effects/styled_shadows/styled_lights.h"
 #include "kernels/shared/styled_shadows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <numbers>
-#include <set>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace wedge::render {
 
@@ -40,20 +45,33 @@ float widthOf(const shared::AreaLight& light)
     return 8.0f * std::max(shared::vecLength(light.halfU), shared::vecLength(light.halfV));
 }
 
-/// Styles of a light whose level sets are the same, and by how much each changes what is seen.
+/// Finds a shadow whose edge is where that much is seen of the light; where a half is, it is what is seen.
+/// matte: to be filled in
+void findLevel(FrameBuilder& f, const LightVisibility& seen, float level, graph::Argument matte,
+    const std::function<bool(const graph::Run&)>& condition = {})
+{
+    f.pixels("levels of a shadow", PassKind::Analysis, { program, "levelMatte" },
+        { f.rectangle(f.analysisParams()), reads("position", f.surfaces.position), reads("normal", f.surfaces.normal),
+            reads("objectId", f.surfaces.objectId), value("light", seen.light), reads("value", seen.value),
+            value("level", level), std::move(matte) },
+        condition);
+}
+
+/// Those of a light's styles of one penumbra, whose level sets are the same, and by how much each changes what is seen.
 class LevelStyles {
 public:
-    LevelStyles(FrameBuilder& frame, const SeenLight& seen, std::vector<const scene::ShadowStyle*> styles)
+    /// places: of these, among all of the light, at least one; largest: metres, of distances that are told apart, 0
+    /// where no style moves edges; weights: the sum of those of all styles
+    LevelStyles(
+        FrameBuilder& frame, const LightVisibility& seen, std::vector<std::size_t> places, float largest, float weights)
         : f_(frame)
         , seen_(seen)
-        , styles_(std::move(styles))
-        , penumbra_(styles_.front()->penumbra)
-        , changes_(styles_.size())
+        , places_(std::move(places))
+        , penumbra_(style(0).penumbra)
+        , largest_(largest)
+        , weights_(weights)
+        , changes_(places_.size())
     {
-        for (const scene::ShadowStyle* style : styles_) {
-            largest_ = std::max(largest_, mostDistance({ style, 1 }, 0.0f));
-        }
-        largest_ += largest_ > 0.0f ? widthOf(seen.light) : 0.0f;
     }
 
     /// Adds to R, G and B of what is seen.
@@ -62,8 +80,8 @@ public:
         if (largest_ > 0.0f) {
             levels();
         }
-        for (std::size_t i = 0; i < styles_.size(); ++i) {
-            addStyle(*styles_[i], changes_[i], sum);
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            addStyle(i, sum);
         }
     }
 
@@ -73,6 +91,21 @@ private:
         graph::Handle<Metres> distance;
         std::vector<SmoothedDistance> smoothed; ///< of each style
     };
+
+    const scene::ShadowStyle& style(std::size_t of) const
+    {
+        return f_.description.areaLights[seen_.quad].styles.at(places_[of]);
+    }
+
+    /// A number of one of them: of one with keys the same pass finds another one later.
+    template <class Number>
+    graph::Argument knob(std::string name, std::size_t of, const Number& number) const
+    {
+        const auto now = [&scene = f_.description, quad = seen_.quad, place = places_[of], number] {
+            return number(scene.areaLights[quad].styles.at(place));
+        };
+        return style(of).keys.empty() ? value(std::move(name), now()) : graph::changing(std::move(name), now);
+    }
 
     void levels()
     {
@@ -86,7 +119,7 @@ private:
         for (std::uint32_t k = 0; k < count; ++k) {
             Level level = levelAt(0.5f + penumbra_ * (levelOf(k, count) - 0.5f));
             if (k > 0 || count == 1) {
-                for (std::size_t i = 0; i < styles_.size(); ++i) {
+                for (std::size_t i = 0; i < places_.size(); ++i) {
                     addLevels(i, k, count, level, before);
                 }
             }
@@ -97,33 +130,31 @@ private:
     Level levelAt(float level)
     {
         auto matte = f_.graph.plane<Matte>("matte of a level", graph::floats);
-        f_.pixels("levels of a shadow", PassKind::Analysis, { program, "levelMatte" },
-            { f_.rectangle(f_.analysisParams()), reads("position", f_.surfaces.position),
-                reads("normal", f_.surfaces.normal), reads("objectId", f_.surfaces.objectId),
-                value("light", seen_.light), reads("value", seen_.value), value("level", level),
-                writes("matte", matte) });
+        findLevel(f_, seen_, level, writes("matte", matte));
         Level out;
         out.distance = shadowDistances(f_, matte, {}, 0.0f, largest_).distance;
-        for (const scene::ShadowStyle* style : styles_) {
-            const shared::StyleKnob deviation = abstractionOf(*style);
-            out.smoothed.push_back(mostOf(deviation, 0.0f) > 0.0f
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            out.smoothed.push_back(mostOf(abstractionOf(style(i)), 0.0f) > 0.0f
                     ? smoothedDistance(f_, matte, out.distance,
-                        { graph::absent("away"), value("deviation", deviation), largest_, style->keepArea })
+                        { graph::absent("away"), knob("deviation", i, abstractionOf), largest_, style(i).keepArea })
                     : SmoothedDistance { out.distance, {} });
         }
         return out;
     }
 
     /// Adds what is seen between a level and the one before; of one level, of no graph, of all of the light.
-    void addLevels(std::size_t style, std::uint32_t k, std::uint32_t count, const Level& level, const Level& before)
+    void addLevels(std::size_t of, std::uint32_t k, std::uint32_t count, const Level& level, const Level& before)
     {
-        const auto zeros = [](const char* name, const SmoothedDistance& of) {
-            return of.zeros.graph != 0 ? reads(name, of.zeros) : graph::absent(name);
+        const auto zeros = [](const char* name, const SmoothedDistance& distance) {
+            return distance.zeros.graph != 0 ? reads(name, distance.zeros) : graph::absent(name);
+        };
+        const auto metres = [](shared::StyleKnob (*which)(const scene::ShadowStyle&)) {
+            return [which](const scene::ShadowStyle& s) { return which(s).base; };
         };
         const bool one = count == 1;
         const float at = levelOf(k, count), from = one ? at : levelOf(k - 1, count);
-        const SmoothedDistance& now = level.smoothed[style];
-        const SmoothedDistance previous = one ? SmoothedDistance() : before.smoothed[style];
+        const SmoothedDistance& now = level.smoothed[of];
+        const SmoothedDistance previous = one ? SmoothedDistance() : before.smoothed[of];
         f_.pixels("styles of shadows", PassKind::Composite, { program, "addLevel" },
             joined({ f_.rectangle(f_.analysisParams()), reads("distance", level.distance),
                        reads("smoothed", now.distance), zeros("zeros", now) },
@@ -131,65 +162,90 @@ private:
                     one ? graph::absent("previousSmoothed") : reads("previousSmoothed", previous.distance),
                     zeros("previousZeros", previous) },
                 graph::together("style",
-                    { value("inflation", inflationOf(*styles_[style]).base),
-                        value("softness", softnessOf(*styles_[style]).base), value("both", at - from),
-                        value("beforeThem", k <= 1 ? from : 0.0f),
+                    { knob("inflation", of, metres(inflationOf)), knob("softness", of, metres(softnessOf)),
+                        value("both", at - from), value("beforeThem", k <= 1 ? from : 0.0f),
                         value("afterThem", k + 1 == count ? 1.0f - at : 0.0f),
                         value("end", one ? 0.0f : levelOf(0, count) / (levelOf(1, count) - levelOf(0, count))),
-                        value("levels", static_cast<float>(one ? 1 : count - 1)) }),
-                Arguments { updates("change", changes_[style]) }));
+                        value("pairs", static_cast<float>(one ? 1 : count - 1)) }),
+                Arguments { updates("change", changes_[of]) }));
     }
 
-    void addStyle(const scene::ShadowStyle& style, const graph::Handle<Share>& change, graph::Handle<Value>& sum)
+    void addStyle(std::size_t of, graph::Handle<Value>& sum)
     {
-        Arguments passes =
+        const graph::Handle<Share>& change = changes_[of];
+        const auto left = [](int channel) {
+            return [channel](const scene::ShadowStyle& s) { return brightnessOf(s, channel).base; };
+        };
+        const auto softness = [](const scene::ShadowStyle& s) { return softnessOf(s).base; };
+        Arguments arguments =
             joined({ f_.rectangle(f_.analysisParams()), value("light", seen_.light), reads("value", seen_.value),
                        change.graph != 0 ? reads("change", change)
                                          : graph::absent("change", graph::floatPlanes(WEDGE_LEVEL_PLANES)),
                        reads("pixelSize", f_.surfaces.pixelSize) },
                 places(f_.surfaces),
                 graph::together("style",
-                    { value("channels", f_.specular() ? 2u : 1u), value("penumbra", style.penumbra),
-                        value("softness", softnessOf(style).base), value("largest", largest_),
-                        value("red", brightnessOf(style, 0).base), value("green", brightnessOf(style, 1).base),
-                        value("blue", brightnessOf(style, 2).base), value("weight", style.weight) }));
-        if (style.receivers.empty()) {
-            passes.push_back(graph::absent("receivers", graph::counts));
+                    { value("channels", f_.specular() ? 2u : 1u), value("penumbra", penumbra_),
+                        knob("softness", of, softness), value("largest", largest_), knob("red", of, left(0)),
+                        knob("green", of, left(1)), knob("blue", of, left(2)),
+                        value("weight", style(of).weight / weights_) }));
+        if (style(of).receivers.empty()) {
+            arguments.push_back(graph::absent("receivers", graph::counts));
         } else {
-            passes = joined(passes, objectList(f_, "receivers", style.receivers));
+            arguments = joined(arguments, objectList(f_, "receivers", style(of).receivers));
         }
-        passes.push_back(updates("seen", sum));
-        f_.pixels("styles of shadows", PassKind::Composite, { program, "softStyle" }, std::move(passes));
+        arguments.push_back(updates("seen", sum));
+        f_.pixels("styles of shadows", PassKind::Composite, { program, "softStyle" }, std::move(arguments));
     }
 
     FrameBuilder& f_;
-    const SeenLight& seen_;
-    std::vector<const scene::ShadowStyle*> styles_;
+    const LightVisibility& seen_;
+    std::vector<std::size_t> places_;
     float penumbra_;
-    float largest_ = 0; ///< metres, of distances that are told apart
+    float largest_;
+    float weights_;
     std::vector<graph::Handle<Share>> changes_; ///< of what is seen, by each style; of no graph: by none
 };
 
+/// Metres of distances that are told apart, one number for all styles of a light, so that what one of them draws does
+/// not go by the penumbras of others; 0 where none of them moves edges.
+float largestOf(const LightVisibility& seen, const std::vector<scene::ShadowStyle>& styles)
+{
+    const float most = mostDistance(styles, 0.0f);
+    return most > 0.0f ? most + widthOf(seen.light) : 0.0f;
+}
+
 } // namespace
 
-graph::Handle<Value> softStyles(FrameBuilder& f, const SeenLight& seen)
+graph::Handle<Value> softStyles(FrameBuilder& f, const LightVisibility& seen)
 {
+    const std::vector<scene::ShadowStyle>& styles = f.description.areaLights[seen.quad].styles;
     auto sum = f.graph.plane<Value>("change by styles", graph::floatPlanes(f.specular() ? 6 : 3));
     f.zero(sum);
-    std::set<float> penumbras;
-    for (const scene::ShadowStyle& style : seen.styles) {
-        penumbras.insert(style.penumbra);
+    std::map<float, std::vector<std::size_t>> places; // by penumbras
+    float weights = 0.0f;
+    for (std::size_t i = 0; i < styles.size(); ++i) {
+        places[styles[i].penumbra].push_back(i);
+        weights += styles[i].weight;
     }
-    for (const float penumbra : penumbras) {
-        std::vector<const scene::ShadowStyle*> alike;
-        for (const scene::ShadowStyle& style : seen.styles) {
-            if (style.penumbra == penumbra) {
-                alike.push_back(&style);
-            }
-        }
-        LevelStyles(f, seen, std::move(alike)).declare(sum);
+    const float largest = largestOf(seen, styles);
+    for (auto& [penumbra, alike] : places) {
+        LevelStyles(f, seen, std::move(alike), largest, weights).declare(sum);
     }
     return sum;
+}
+
+void showSoftShadow(FrameBuilder& f, const LightVisibility& seen, const std::function<bool(const graph::Run&)>& known)
+{
+    const std::string name = fmt::format(".{}", layerNameOf(f.description, seen.quad));
+    auto matte = f.graph.plane<Matte>("matte of a soft shadow", graph::floats);
+    f.fill("unknown", matte, WEDGE_MATTE_UNKNOWN);
+    findLevel(f, seen, 0.5f, updates("matte", matte), known);
+    f.layers->add({ "shadowMatte", name, matte, Where::OnSurfaces });
+    const float largest = largestOf(seen, f.description.areaLights[seen.quad].styles);
+    if (largest > 0.0f) {
+        f.layers->add(
+            { "shadowDistance", name, shadowDistances(f, matte, {}, 0.0f, largest).distance, Where::OnSurfaces });
+    }
 }
 
 } // namespace wedge::render

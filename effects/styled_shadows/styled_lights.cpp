@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -25,18 +26,35 @@ std::string plainName(const std::string& name)
     return out;
 }
 
-/// Gives lights without a name of their own, or with one that begins as a number, their number among all point and
-/// directional lights.
-void number(std::vector<StyledLight>& lights)
+/// Names of all lights with a style as layers are named, of those without one "".
+std::vector<std::string> plainNames(const scene::Scene& scene)
 {
-    const std::vector<StyledLight> before = lights;
-    const auto own = [&](const StyledLight& light) {
-        return !light.name.empty() && std::ranges::count(before, light.name, &StyledLight::name) == 1
-            && std::isdigit(static_cast<unsigned char>(light.name.front())) == 0;
+    std::vector<std::string> out;
+    const auto add = [&](const auto& lights) {
+        for (const auto& light : lights) {
+            if (!light.styles.empty()) {
+                out.push_back(plainName(light.name));
+            }
+        }
     };
-    for (StyledLight& light : lights) {
-        light.name = own(light) ? light.name : fmt::format("{}", light.index + 1);
-    }
+    add(scene.pointLights);
+    add(scene.directionalLights);
+    add(scene.areaLights);
+    return out;
+}
+
+constexpr std::string_view quadPrefix = "quad";
+
+/// What a light is called that has this name: by it, where no other of `all` has it and it is none that lights
+/// without a name are given; else as given.
+std::string nameAmong(const std::vector<std::string>& all, const std::string& name, const std::string& given)
+{
+    const auto isNumber = [](std::string_view text) {
+        return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0;
+    };
+    const std::string_view rest = std::string_view(name).substr(name.starts_with(quadPrefix) ? quadPrefix.size() : 0);
+    const bool own = !name.empty() && std::ranges::count(all, name) == 1 && !isNumber(name) && !isNumber(rest);
+    return own ? name : given;
 }
 
 } // namespace
@@ -54,20 +72,27 @@ std::vector<StyledLight> styledLights(const Settings& settings, const scene::Sce
     if (!settings.styles) {
         return out;
     }
+    const std::vector<std::string> all = plainNames(scene);
     std::uint32_t index = 0;
     const auto add = [&](const auto& lights) {
         for (const auto& light : lights) {
             if (!light.styles.empty()) {
-                const std::string called = light.name.empty() ? fmt::format("{}", index + 1) : light.name;
-                out.push_back({ index, plainName(light.name), called, light.styles });
+                const std::string number = fmt::format("{}", index + 1);
+                out.push_back({ index, nameAmong(all, plainName(light.name), number),
+                    light.name.empty() ? number : light.name, light.styles });
             }
             ++index;
         }
     };
     add(scene.pointLights);
     add(scene.directionalLights);
-    number(out);
     return out;
+}
+
+std::string layerNameOf(const scene::Scene& scene, std::uint32_t quad)
+{
+    const std::string name = plainName(scene.areaLights.at(quad).name);
+    return nameAmong(plainNames(scene), name, fmt::format("{}{}", quadPrefix, quad + 1));
 }
 
 std::vector<StyleGroup> groupsOf(const StyledLight& light)
@@ -95,24 +120,28 @@ std::vector<StyleGroup> groupsOf(const StyledLight& light)
 
 namespace {
 
+bool isStyled(const scene::AreaLight& light) { return !light.styles.empty(); }
+
+/// In messages.
+std::string nameOf(const scene::AreaLight& light)
+{
+    return fmt::format("style of light '{}'", light.name.empty() ? "quad" : light.name);
+}
+
 /// Throws where soft shadows are to be drawn in a style, and frames do not filter what is seen of each such light.
 void requireSoftStylable(const Settings& settings, const PreparedScene& scene)
 {
     const DirectLights& lights = scene.directLights();
-    const auto styled = [](const scene::AreaLight& light) { return !light.styles.empty(); };
-    const auto name = [](const scene::AreaLight& light) {
-        return fmt::format("style of light '{}'", light.name.empty() ? "quad" : light.name);
-    };
     for (const std::uint32_t number : lights.sharedQuads) {
-        if (styled(scene.areaLights[number])) {
+        if (isStyled(scene.areaLights[number])) {
             throw UsageError(fmt::format("only the {} strongest area lights have styles", mostOwnTerms),
-                name(scene.areaLights[number]), "leave it out, or add --no-style");
+                nameOf(scene.areaLights[number]), "leave it out, or add --no-style");
         }
     }
-    const auto light = std::ranges::find_if(scene.areaLights, styled);
+    const auto light = std::ranges::find_if(scene.areaLights, isStyled);
     if (settings.method != Method::AxisAligned || settings.filtering == Filtering::None
         || settings.shading == Shading::Inside) {
-        throw UsageError("styles of soft shadows are drawn of filtered shadows alone", name(*light),
+        throw UsageError("styles of soft shadows are drawn of filtered shadows alone", nameOf(*light),
             "choose --method aaf, without --filter none or --falloff inside, or add --no-style");
     }
 }
@@ -122,15 +151,15 @@ void requireSoftStylable(const Settings& settings, const PreparedScene& scene)
 void requireStylable(const Settings& settings, const PreparedScene& scene)
 {
     const std::vector<StyledLight> lights = styledLights(settings, scene);
-    const bool soft = settings.styles
-        && std::ranges::any_of(scene.areaLights, [](const scene::AreaLight& light) { return !light.styles.empty(); });
+    const bool soft = settings.styles && std::ranges::any_of(scene.areaLights, isStyled);
     if (settings.integrator != Integrator::Path || (lights.empty() && !soft)) {
         return;
     }
     if (isDistributed(settings, scene)) {
+        const auto styled = std::ranges::find_if(scene.areaLights, isStyled);
         throw UsageError("styles of shadows are of frames through a pinhole where nothing moves, neither antialiased "
                          "nor progressive",
-            lights.empty() ? "style of a quad" : fmt::format("style of light {}", lights.front().called),
+            lights.empty() ? nameOf(*styled) : fmt::format("style of light {}", lights.front().called),
             "add --no-style, or leave out --antialias, --progressive, the lens and what moves");
     }
     if (soft) {

@@ -27,6 +27,10 @@ const scene::ShadowStyle& styleOf(const scene::Scene& scene, std::uint32_t light
 /// Lights whose shadows frames of these settings draw in a style; refers to the scene.
 std::vector<StyledLight> styledLights(const Settings& settings, const scene::Scene& scene);
 
+/// What the layers of an area light with a style are called after: as StyledLight::name, but "quad" and its number
+/// among area lights, from 1, where that is a number.
+std::string layerNameOf(const scene::Scene& scene, std::uint32_t quad);
+
 /// Those of a light's styles that have the same casters.
 struct StyleGroup {
     std::string name; ///< of its layers: the light's, of the second and later ones with a number

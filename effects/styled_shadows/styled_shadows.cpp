@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -243,25 +244,34 @@ public:
         };
     }
 
-    bool changesSeen(const Settings& settings, const scene::AreaLight& light) const override
+    bool changesVisibility(const Settings& settings, const scene::AreaLight& light) const override
     {
         return settings.styles && !light.styles.empty();
     }
-    graph::Handle<Value> changeSeen(FrameBuilder& frame, const SeenLight& seen) const override
+    graph::Handle<Value> changeVisibility(FrameBuilder& frame, const LightVisibility& seen) const override
     {
         return softStyles(frame, seen);
+    }
+    void showVisibility(FrameBuilder& frame, const LightVisibility& seen,
+        const std::function<bool(const graph::Run&)>& known) const override
+    {
+        showSoftShadow(frame, seen, known);
     }
 
     std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene* scene) const override
     {
-        const bool styled = scene != nullptr && !styledLights(settings, *scene).empty();
+        const bool styled = scene != nullptr && settings.integrator == Integrator::Path
+            && (!styledLights(settings, *scene).empty()
+                || std::ranges::any_of(
+                    scene->areaLights, [&](const scene::AreaLight& l) { return changesVisibility(settings, l); }));
         const std::string absence = styled ? "" : "no light's shadows have a style";
         return { { "shadowMatte", { "Y" },
-                     "of each light whose shadows have a style, shadowMatte.NAME: 1 where it is seen, 0 in shadow, -1 "
-                     "where a surface faces away",
+                     "of each light whose shadows have a style, shadowMatte.NAME: how much of it is seen, from 0 in "
+                     "shadow to 1, -1 where a surface faces away",
                      absence },
             { "shadowDistance", { "Z" },
-                "of the same, shadowDistance.NAME: metres to the shadow's edge, below 0 in shadow, 0 where unknown",
+                "of the same, shadowDistance.NAME: metres to the shadow's edge, of a soft one where half of the light "
+                "is seen; below 0 in shadow, 0 where unknown",
                 absence, 0.0f } };
     }
 };

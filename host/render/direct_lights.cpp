@@ -193,7 +193,8 @@ DirectLights directLights(const scene::Scene& scene)
                 out.sharedQuads.push_back(static_cast<std::uint32_t>(number));
             }
         } else if (number < quads) {
-            out.own.push_back({ scene.areaLights[number], out.lifts[number] });
+            out.own.push_back({ scene.areaLights[number], out.lifts[number], static_cast<std::uint32_t>(number) });
+            out.own.back().quad.styles.clear();
         } else {
             const Candidate& panel = found[number - quads];
             out.own.push_back(lightOf(scene, panel));

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace wedge::render {
@@ -19,8 +20,9 @@ inline constexpr double leastPanelShare = 1.0 / 16.0;
 
 /// A light that has a term of direct light of its own.
 struct OwnLight {
-    scene::AreaLight quad; ///< one of the scene's, or a panel
+    scene::AreaLight quad; ///< one of the scene's, or a panel; without styles, which may change without it
     float lift = 0; ///< metres, AreaLight::lift: of a panel, or of a quad that lies in a surface
+    std::optional<std::uint32_t> number = {}; ///< among the scene's area lights; of a panel: none
 
     shared::AreaLight onDevice() const;
 };

@@ -26,10 +26,10 @@ void registerEffect(std::unique_ptr<const Effect> effect)
     registry().push_back(std::move(effect));
 }
 
-const Effect* changerOfSeen(const Settings& settings, const scene::AreaLight& light)
+const Effect* changerOfVisibility(const Settings& settings, const scene::AreaLight& light)
 {
     for (const auto& effect : effects()) {
-        if (effect->changesSeen(settings, light)) {
+        if (effect->changesVisibility(settings, light)) {
             return effect.get();
         }
     }

@@ -27,7 +27,7 @@ struct Term {
     Part part = Part::Direct;
     double workUnits = 0; ///< of a pixel, about as many as it has rays
     bool gathersVariance = false; ///< it adds to Sum::variance of its part
-    bool changed = false; ///< what is seen of its light is, Effect::changeSeen()
+    bool changed = false; ///< what is seen of its light is, Effect::changeVisibility()
     bool ofLobes = false; ///< where the pixels are the receivers, those that reflect nothing specularly have none of it
     /// What it is where the pixels are the receivers, and where pixels have several.
     std::function<std::unique_ptr<PixelTerm>(FrameBuilder&)> inPixels;
@@ -71,9 +71,9 @@ struct EffectOption {
 };
 
 /// What is seen of an area light from the receivers, pixels, once that is filtered.
-struct SeenLight {
+struct LightVisibility {
     shared::AreaLight light {};
-    std::span<const scene::ShadowStyle> styles; ///< of its shadows
+    std::uint32_t quad = 0; ///< its number among the scene's area lights
     graph::Handle<Value> value; ///< of matt surfaces and, in frames that have such, of lobes: 0 to 1
 };
 
@@ -86,9 +86,15 @@ public:
     virtual std::vector<Term> terms(const Settings&, const PreparedScene&) const { return {}; }
     virtual std::optional<Unfiltered> unfiltered(const Settings&, const PreparedScene&) const { return std::nullopt; }
     /// Whether it draws other shadows than there are of an area light.
-    virtual bool changesSeen(const Settings&, const scene::AreaLight&) const { return false; }
+    virtual bool changesVisibility(const Settings&, const scene::AreaLight&) const { return false; }
     /// Declares the passes that do: planes to be added to what is seen, R, G and B of matt surfaces and then of lobes.
-    virtual graph::Handle<Value> changeSeen(FrameBuilder&, const SeenLight&) const { return {}; }
+    virtual graph::Handle<Value> changeVisibility(FrameBuilder&, const LightVisibility&) const { return {}; }
+    /// Adds to FrameBuilder::layers, which are read, what it shows of that; of frames where the condition is false it
+    /// is not known what is seen.
+    virtual void showVisibility(
+        FrameBuilder&, const LightVisibility&, const std::function<bool(const graph::Run&)>&) const
+    {
+    }
 
     /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
     virtual std::string absence(Part) const { return ""; }
@@ -113,7 +119,7 @@ public:
 const std::vector<std::unique_ptr<const Effect>>& effects();
 
 /// The effect that changes what is seen of this light; null where none does.
-const Effect* changerOfSeen(const Settings& settings, const scene::AreaLight& light);
+const Effect* changerOfVisibility(const Settings& settings, const scene::AreaLight& light);
 
 /// Adds one. Not while anybody renders.
 void registerEffect(std::unique_ptr<const Effect> effect);

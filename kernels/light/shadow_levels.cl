@@ -72,7 +72,7 @@ WEDGE_FN float seenBetween(float before, float now, LevelShares shares, float en
 /// in      p; distance, smoothed: metres, of this level, as they are and as the style goes by; zeros: and a number
 ///         more, where in the latter the edge is; previous, previousSmoothed, previousZeros: of the level before; where
 ///         there is but one level absent; inflation, softness: metres; both, beforeThem, afterThem, end: of
-///         LevelShares; levels: how many there are
+///         LevelShares; pairs: of levels that there are, 1 of a single one
 /// in out  change: WEDGE_LEVEL_*
 #include "pass/addLevel.h"
 #ifdef PASS_addLevel
@@ -92,14 +92,15 @@ __kernel void addLevel(PARAMETERS)
     shares.after = afterThem;
     change[WEDGE_LEVEL_PLAIN * size + i] += seenBetween(before, now, shares, end, 0.0f);
     change[WEDGE_LEVEL_STYLED * size + i] += seenBetween(styledBefore, styled, shares, end, softness);
-    change[WEDGE_LEVEL_MOVED * size + i] += fabs(styled - now) / levels;
+    const float moved = 0.5f * (fabs(styled - now) + fabs(styledBefore - before));
+    change[WEDGE_LEVEL_MOVED * size + i] += moved / pairs;
     const float nearest = fmin(fabs(before), fabs(now)), known = change[WEDGE_LEVEL_NEAREST * size + i];
     change[WEDGE_LEVEL_NEAREST * size + i] = beforeThem > 0.0f ? nearest : fmin(known, nearest);
 }
 #endif
 
 /// How much more is seen of a light in a style, of what levels say. They say it to a part of a level, and what is left,
-/// seen - PLAIN, stays where it is: where the style moves nothing, and where no edge of a level is near.
+/// seen - PLAIN, stays where it is as far as the style moves nothing. Where no edge of a level is near nothing changes.
 ///
 /// pixel: metres; soft: half of the softness, metres; largest: metres, of distances
 WEDGE_FN float styledChange(
@@ -109,7 +110,7 @@ WEDGE_FN float styledChange(
     const float moved = clamp((change[WEDGE_LEVEL_MOVED * size + i] + soft) / fmax(pixel, 1e-30f), 0.0f, 1.0f);
     const float near = clamp(2.0f - 2.0f * change[WEDGE_LEVEL_NEAREST * size + i] / largest, 0.0f, 1.0f);
     // What is seen may be a little more than all of the light, and stays so.
-    const float all = seen + (styled - plain) - moved * near * (seen - plain);
+    const float all = seen + near * (styled - plain - moved * (seen - plain));
     return clamp(all, fmin(seen, 0.0f), fmax(seen, 1.0f)) - seen;
 }
 
