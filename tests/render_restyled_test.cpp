@@ -82,6 +82,21 @@ void change(render::Renderer& renderer, const Turned& t)
     renderer.changeScene({ .onlyKnobs = true }, [&](scene::Scene& scene) { turn(scene, t); });
 }
 
+/// Renders a frame whose knobs have changed: it is another one than before, and has the bits of a frame of that scene
+/// by itself.
+render::FrameStatistics againAsAlone(render::Renderer& renderer, const std::vector<float>& before,
+    const scene::Scene& scene, const render::Settings& s, bool layers)
+{
+    const render::FrameStatistics frame = renderer.render(s, {}, layers);
+    render::Options poisoned = renderOptions();
+    poisoned.poison = true;
+    render::Renderer alone(scene, renderer.device(), poisoned);
+    alone.render(s, {}, layers);
+    CHECK(sameBits(beauty(renderer), beauty(alone)));
+    CHECK_FALSE(sameBits(beauty(renderer), before));
+    return frame;
+}
+
 } // namespace
 
 TEST_CASE("where knobs change, passes that go by them run again, and bits are those of a frame by itself")
@@ -93,24 +108,16 @@ TEST_CASE("where knobs change, passes that go by them run again, and bits are th
                 CAPTURE(layers);
                 render::Renderer renderer(sceneOf({}), device, renderOptions());
                 const render::FrameStatistics first = renderer.render(settings(of), {}, layers);
-                std::vector<float> before = beauty(renderer);
                 CHECK(renderer.framesCompiled() == 1);
                 std::uint32_t number = 0;
                 const auto ran = [&](const Turned& t) {
+                    const std::vector<float> before = beauty(renderer);
                     change(renderer, t);
-                    const render::Settings s = settings(of, ++number);
-                    const render::FrameStatistics frame = renderer.render(s, {}, layers);
+                    const render::FrameStatistics frame =
+                        againAsAlone(renderer, before, sceneOf(t), settings(of, ++number), layers);
                     CHECK(frame.frame == number);
                     CHECK(frame.passes.size() < first.passes.size());
                     CHECK(frame.sppMean == first.sppMean);
-                    render::Options poisoned = renderOptions();
-                    poisoned.poison = true;
-                    render::Renderer alone(sceneOf(t), device, poisoned);
-                    alone.render(s, {}, layers);
-                    const std::vector<float> now = beauty(renderer);
-                    CHECK(sameBits(now, beauty(alone)));
-                    CHECK_FALSE(sameBits(now, before));
-                    before = now;
                     return passesOf(frame);
                 };
                 using Names = std::set<std::string>;
@@ -179,6 +186,45 @@ TEST_CASE("so do those of styles of other casters, and on some receivers")
         alone.render(s);
         CHECK(sameBits(beauty(renderer), beauty(alone)));
         CHECK_FALSE(sameBits(beauty(renderer), before));
+    });
+}
+
+TEST_CASE("so do those of soft shadows, but for penumbras, for which frames run whole")
+{
+    onEveryDevice([](const device::Device& device) {
+        const auto sceneOfQuads = [](const Turned& t, float penumbra = 1) {
+            scene::Scene scene = sceneOf({});
+            for (scene::AreaLight& light : scene.areaLights) {
+                light.styles = { style(1, t.inflation, t.softness, t.abstraction, t.brightness) };
+                light.styles[0].penumbra = light.styles[0].keys[0].penumbra = penumbra;
+            }
+            return scene;
+        };
+        for (const bool layers : { false, true }) {
+            CAPTURE(layers);
+            render::Renderer renderer(sceneOfQuads({}), device, renderOptions());
+            const render::FrameStatistics first = renderer.render(settings(render::axisAligned(16)), {}, layers);
+            std::uint32_t number = 0;
+            const auto ran = [&](const Turned& t, bool knobs = true, float penumbra = 1) {
+                const std::vector<float> before = beauty(renderer);
+                renderer.changeScene({ .onlyKnobs = knobs }, [&](scene::Scene& scene) {
+                    const scene::Scene turned = sceneOfQuads(t, penumbra);
+                    for (std::size_t i = 0; i < scene.areaLights.size(); ++i)
+                        scene.areaLights[i].styles = turned.areaLights[i].styles;
+                });
+                const render::FrameStatistics frame = againAsAlone(
+                    renderer, before, sceneOfQuads(t, penumbra), settings(render::axisAligned(16), ++number), layers);
+                CHECK((frame.passes.size() < first.passes.size()) == knobs);
+                return passesOf(frame);
+            };
+            using Names = std::set<std::string>;
+            const Names shades { "composite", "styles of shadows" };
+            CHECK(ran({ .inflation = 0.1f }) == shades);
+            CHECK(ran({ .softness = 0.2f, .brightness = { 0, 0.5f, 1 } }) == shades);
+            const Names blurs = ran({ .abstraction = 0.08f });
+            CHECK(blurs == Names { "areas of shadows", "blur of shadows' edges", "composite", "styles of shadows" });
+            CHECK(ran({ .abstraction = 0.08f }, false, 0.5f).contains("primary rays"));
+        }
     });
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("objects that throw shadows in a style, and that have them, go by thei
     };
     const Scene scene = wedge::scene::loadScene(styled("casters = ['tree/low', 'ground/tri']\nreceivers = 'tree'\n"));
     const wedge::scene::ShadowStyle& style = scene.directionalLights[0].styles.at(0);
-    CHECK(style.casters == std::vector<std::string> { "tree/low", "ground/tri" });
+    CHECK(style.casters == std::vector<std::string> { "ground/tri", "tree/low" });
     CHECK(style.receivers == std::vector<std::string> { "tree" });
     const auto says = [&](const std::string& lists, const std::string& what) {
         const std::string message = scene_test::errorOf(styled(lists));
@@ -98,6 +98,14 @@ TEST_CASE("objects that throw shadows in a style, and that have them, go by thei
               .directionalLights[0]
               .styles.size()
         == 3);
+    // By what they name, in whatever order and however often.
+    const std::string some = "weight = 0.5\ncasters = ['tree/high', 'ground']\n";
+    const std::string same = "weight = 0.5\ncasters = ['ground', 'tree/high', 'ground']\n";
+    CHECK(wedge::scene::loadScene(styled(some + more + same)).directionalLights[0].styles.at(1).casters
+        == std::vector<std::string> { "ground", "tree/high" });
+    const std::string twice = "style of light has an object among the casters of two lists: ";
+    says(high + more + "casters = 'tree'\n", twice + "'tree/high/tri'");
+    says("casters = 'ground/tri'\n" + more + "casters = ['tree', 'ground']\n", twice + "'ground/tri'");
     says(high + more + "weight = 0.5\n", "style of light has weights that do not add up to 1: 0.5");
     says(high + more + high, "light.style lacks a key: weight");
     says("casters = 'tre'\n", "casters of light.style names no object of the scene: 'tre': did you mean 'tree'?");
@@ -155,11 +163,12 @@ TEST_CASE("a scene knows whether styles alone have keys, and moments whether kno
     CHECK_FALSE(load(camera + moves + sun + keys).onlyStylesChange);
     CHECK_FALSE(
         load(camera + sun + "key = [{ time = 0 }, { time = 1, rotate = [0, 0, 1, 9] }]\n" + keys).onlyStylesChange);
-    // Of soft shadows nothing is kept.
+    // Of soft shadows likewise.
     const std::string quad =
         "[[light]]\ntype = 'quad'\ncentre = [0, 4, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 5\n";
-    CHECK_FALSE(load(camera + quad + keys).onlyStylesChange);
-    CHECK_FALSE(load(camera + sun + keys + quad + keys).onlyStylesChange);
+    CHECK(load(camera + quad + keys).onlyStylesChange);
+    CHECK(load(camera + sun + keys + quad + keys).onlyStylesChange);
+    CHECK_FALSE(load(camera + quad + "[[light.style]]\nsoftness = 1\n").onlyStylesChange);
     CHECK(load(camera + sun + keys + quad + "[[light.style]]\nsoftness = 1\n").onlyStylesChange);
     const auto changeOf = [](const std::string& text, double from, double to) {
         const scene_test::TemporaryFolder folder;
@@ -169,9 +178,10 @@ TEST_CASE("a scene knows whether styles alone have keys, and moments whether kno
         const wedge::scene::Change toFirst = wedge::scene::changeTo(first, scene);
         wedge::scene::apply(std::move(first), toFirst, scene);
         const wedge::scene::Change change = wedge::scene::changeTo(second, scene);
-        const auto styles = second.directionalLights.at(0).styles;
+        const bool hard = !scene.directionalLights.empty();
+        const auto styles = hard ? second.directionalLights.at(0).styles : second.areaLights.at(0).styles;
         wedge::scene::apply(std::move(second), change, scene);
-        CHECK(scene.directionalLights.at(0).styles == styles);
+        CHECK((hard ? scene.directionalLights.at(0).styles : scene.areaLights.at(0).styles) == styles);
         return change;
     };
     CHECK(changeOf(camera + sun + keys, 0, 0.5).onlyKnobs);
@@ -180,6 +190,12 @@ TEST_CASE("a scene knows whether styles alone have keys, and moments whether kno
     const std::string turns = "key = [{ time = 0 }, { time = 1, rotate = [0, 0, 1, 9] }]\n";
     CHECK_FALSE(changeOf(camera + sun + turns + keys, 0, 0.5).onlyKnobs);
     CHECK(changeOf(camera + sun + turns + keys, 0, 0.5).lights);
+    CHECK(changeOf(camera + quad + keys, 0, 0.5).onlyKnobs);
+    CHECK_FALSE(changeOf(camera + quad + keys, 0, 0.5).lights);
+    // Another penumbra: other level sets.
+    const std::string narrows = "[[light.style]]\nkey = [{ time = 0 }, { time = 1 , penumbra = 0.5 }]\n";
+    CHECK_FALSE(changeOf(camera + quad + narrows, 0, 0.5).onlyKnobs);
+    CHECK_FALSE(changeOf(camera + quad + narrows, 0, 0.5).lights);
     // A blur comes or goes: other passes.
     const std::string blurs = "[[light.style]]\nkey = [{ time = 0 }, { time = 1 , abstraction = 1 }]\n";
     CHECK_FALSE(changeOf(camera + sun + blurs, 0, 0.5).onlyKnobs);

@@ -136,7 +136,7 @@ struct Scene {
     std::optional<Camera> cameraAtClose; ///< when it closes, if it moves; lens and field of view are those of camera
     ShutterProfile shutterProfile = ShutterProfile::Box;
     double shutterOpen = 0.0, shutterClose = 0.0; ///< in the time of the scene file's keys; all above is as of these
-    bool onlyStylesChange = false; ///< over time: styles of hard shadows have keys, and nothing else of the scene has
+    bool onlyStylesChange = false; ///< over time: styles of shadows have keys, and nothing else of the scene has
     double framesPerUnit = 24.0; ///< of sequences: frames in one unit of the keys' time, leastFps to mostFps
     Settings settings;
     std::map<std::string, std::any> extensions; ///< of the tables of sections.h, by their keys

@@ -15,12 +15,11 @@ bool hasKeys(const std::vector<ShadowStyle>& styles)
     return std::ranges::any_of(styles, [](const ShadowStyle& style) { return !style.keys.empty(); });
 }
 
-/// Of hard shadows, and of no others: how soft ones are drawn changes what frames keep.
-bool hardStylesHaveKeys(const Scene& scene)
+bool stylesHaveKeys(const Scene& scene)
 {
     const auto has = [](const auto& light) { return hasKeys(light.styles); };
-    return (std::ranges::any_of(scene.pointLights, has) || std::ranges::any_of(scene.directionalLights, has))
-        && std::ranges::none_of(scene.areaLights, has);
+    return std::ranges::any_of(scene.pointLights, has) || std::ranges::any_of(scene.directionalLights, has)
+        || std::ranges::any_of(scene.areaLights, has);
 }
 
 /// All but the geometry.
@@ -65,7 +64,7 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     brought_ = lightsOfExtensions(scene);
     scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     scene.textures = textures_.take();
-    scene.onlyStylesChange = hardStylesHaveKeys(scene) && !hasOtherKeys();
+    scene.onlyStylesChange = stylesHaveKeys(scene) && !hasOtherKeys();
 }
 
 bool SceneFile::hasOtherKeys()

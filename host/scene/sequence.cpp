@@ -33,7 +33,7 @@ bool equal(const Geometry& a, const Geometry& b)
 
 bool equal(const AreaLight& a, const AreaLight& b)
 {
-    return a.centre == b.centre && a.halfU == b.halfU && a.halfV == b.halfV && a.styles == b.styles;
+    return a.centre == b.centre && a.halfU == b.halfU && a.halfV == b.halfV && a.styles.empty() == b.styles.empty();
 }
 bool equal(const PointLight& a, const PointLight& b)
 {
@@ -102,7 +102,8 @@ Change changeTo(Moment& moment, const Scene& scene)
             || !allEqual(moment.directionalLights, scene.directionalLights),
         .geometry = moment.geometry.has_value() };
     change.onlyKnobs = !change.lights && !change.geometry && equal(moment.camera, scene.camera)
-        && equal(moment.cameraAtClose, scene.cameraAtClose) && allDifferInKnobs(moment.pointLights, scene.pointLights)
+        && equal(moment.cameraAtClose, scene.cameraAtClose) && allDifferInKnobs(moment.areaLights, scene.areaLights)
+        && allDifferInKnobs(moment.pointLights, scene.pointLights)
         && allDifferInKnobs(moment.directionalLights, scene.directionalLights);
     return change;
 }
@@ -118,6 +119,7 @@ void apply(Moment&& moment, const Change& change, Scene& scene)
         scene.pointLights = std::move(moment.pointLights);
         scene.directionalLights = std::move(moment.directionalLights);
     } else {
+        moveStyles(moment.areaLights, scene.areaLights);
         moveStyles(moment.pointLights, scene.pointLights);
         moveStyles(moment.directionalLights, scene.directionalLights);
     }
