@@ -40,6 +40,43 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
     });
 }
 
+TEST_CASE("shadowDistance: where means are of near edges alone they go over into the nearest distance")
+{
+    onEveryDevice([](const device::Device& device) {
+        Traced traced(device);
+        const Seen s(traced);
+        const std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
+        PassBench bench(traced.frame, "shadowDistance");
+        traced.give(bench);
+        giveEdges(traced, bench, pieces);
+        const float largest = 0.7f, within = 0.08f;
+        bench.value("largest", largest);
+        bench.value("meanWithin", within);
+        bench.run();
+        const auto distance = bench.pixels<float>("distance");
+        unsigned kinds[3] = {};
+        double worst = 0, apart = 0;
+        everyPixel(traced.frame.layout, [&](int x, int y) {
+            const glm::dvec3 at = s.position.vector(x, y), n = s.normal.vector(x, y);
+            double nearest = 2 * double { largest };
+            for (const Piece& piece : pieces)
+                if (glm::dot(piece.normal, n) > std::numbers::sqrt2 / 2)
+                    nearest = std::min(nearest, glm::length(piece.middle - at));
+            if (s.matte.at(x, y) < 0)
+                return;
+            const double mean = distanceTo(pieces, at, n, double { largest }),
+                         t = std::clamp(nearest / double { within } - 1, 0.0, 1.0);
+            const double expected = mean + (std::min(nearest, double { largest }) - mean) * t;
+            worst = std::max(worst, std::abs(std::abs(double { distance.at(x, y) }) - expected));
+            apart = std::max(apart, std::abs(mean - expected));
+            ++kinds[t <= 0 ? 0 : t < 1 ? 1 : 2];
+        });
+        CHECK(*std::ranges::min_element(kinds) > 100);
+        CHECK(worst < 1e-4 * double { largest });
+        CHECK(apart > 0.01);
+    });
+}
+
 TEST_CASE("shadowDistance: a pixel is as near to an edge where styles tell kilometres apart")
 {
     onEveryDevice([](const device::Device& device) {
@@ -54,6 +91,7 @@ TEST_CASE("shadowDistance: a pixel is as near to an edge where styles tell kilom
                 CAPTURE(largest);
                 CAPTURE(published);
                 bench.value("largest", largest);
+                bench.value("meanWithin", 2 * largest);
                 bench.value("published", published ? 1u : 0u);
                 bench.run();
                 const auto distance = bench.pixels<float>("distance");

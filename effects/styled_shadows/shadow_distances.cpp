@@ -111,7 +111,7 @@ graph::Handle<Metres> zerosWithin(FrameBuilder& f, const graph::Handle<Matte>& m
 } // namespace
 
 ShadowDistances shadowDistances(FrameBuilder& f, const graph::Handle<Matte>& matte,
-    const graph::Handle<Metres>& occluder, float farthest, float largest)
+    const graph::Handle<Metres>& occluder, float farthest, const DistanceReach& reach)
 {
     const Arguments facing =
         graph::together("surfaces", { reads("position", f.surfaces.position), reads("normal", f.surfaces.normal) });
@@ -130,7 +130,8 @@ ShadowDistances shadowDistances(FrameBuilder& f, const graph::Handle<Matte>& mat
             Arguments { reads("matte", matte), orAbsent("occluder", occluder) },
             graph::together("edges",
                 joined(edgesOf(f, matte, occluder), Arguments { value("published", f.settings.published ? 1u : 0u) })),
-            Arguments { value("largest", largest), value("farthest", farthest), updates("distance", out.distance),
+            Arguments { value("largest", reach.largest), value("meanWithin", reach.meanWithin),
+                value("farthest", farthest), updates("distance", out.distance),
                 occluder.graph != 0 ? updates("away", out.away) : graph::absent("away") }),
         .domain = graph::Domain::Tiles,
         .count =

@@ -13,11 +13,19 @@ struct ShadowDistances {
     graph::Handle<Metres> distance, away;
 };
 
+/// How far distances are found, metres, above 0.
+struct DistanceReach {
+    float largest; ///< that are told apart
+    float meanWithin; ///< means over edges; beyond it over to distances to the nearest edge, which take less time
+
+    /// Means are all that there is.
+    static DistanceReach means(float largest) { return { largest, 2.0f * largest }; }
+};
+
 /// Declares the passes that find them for a matte. occluder: metres to what hides the light, of pixels in shadow; of no
-/// graph where nothing goes by it. farthest: metres, the most that it may be, above 0 then; largest: metres that
-/// distances are told apart up to, above 0.
+/// graph where nothing goes by it. farthest: metres, the most that it may be, above 0 then.
 ShadowDistances shadowDistances(FrameBuilder& frame, const graph::Handle<Matte>& matte,
-    const graph::Handle<Metres>& occluder, float farthest, float largest);
+    const graph::Handle<Metres>& occluder, float farthest, const DistanceReach& reach);
 
 /// How distances are smoothed.
 struct Smoothing {

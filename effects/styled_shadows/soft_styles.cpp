@@ -60,15 +60,15 @@ void findLevel(FrameBuilder& f, const LightVisibility& seen, float level, graph:
 /// Those of a light's styles of one penumbra, whose level sets are the same, and by how much each changes what is seen.
 class LevelStyles {
 public:
-    /// places: of these, among all of the light, at least one; largest: metres, of distances that are told apart, 0
+    /// places: of these, among all of the light, at least one; reach: of distances, 0
     /// where no style moves edges; weights: the sum of those of all styles
-    LevelStyles(
-        FrameBuilder& frame, const LightVisibility& seen, std::vector<std::size_t> places, float largest, float weights)
+    LevelStyles(FrameBuilder& frame, const LightVisibility& seen, std::vector<std::size_t> places,
+        const DistanceReach& reach, float weights)
         : f_(frame)
         , seen_(seen)
         , places_(std::move(places))
         , penumbra_(style(0).penumbra)
-        , largest_(largest)
+        , reach_(reach)
         , weights_(weights)
         , changes_(places_.size())
     {
@@ -77,7 +77,7 @@ public:
     /// Adds to R, G and B of what is seen.
     void declare(graph::Handle<Value>& sum)
     {
-        if (largest_ > 0.0f) {
+        if (reach_.largest > 0.0f) {
             levels();
         }
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -132,11 +132,12 @@ private:
         auto matte = f_.graph.plane<Matte>("matte of a level", graph::floats);
         findLevel(f_, seen_, level, writes("matte", matte));
         Level out;
-        out.distance = shadowDistances(f_, matte, {}, 0.0f, largest_).distance;
+        out.distance = shadowDistances(f_, matte, {}, 0.0f, reach_).distance;
         for (std::size_t i = 0; i < places_.size(); ++i) {
             out.smoothed.push_back(mostOf(abstractionOf(style(i)), 0.0f) > 0.0f
                     ? smoothedDistance(f_, matte, out.distance,
-                        { graph::absent("away"), knob("deviation", i, abstractionOf), largest_, style(i).keepArea })
+                        { graph::absent("away"), knob("deviation", i, abstractionOf),
+                            mostDistance({ &style(i), 1 }, 0.0f), style(i).keepArea })
                     : SmoothedDistance { out.distance, {} });
         }
         return out;
@@ -185,7 +186,7 @@ private:
                 places(f_.surfaces),
                 graph::together("style",
                     { value("channels", f_.specular() ? 2u : 1u), value("penumbra", penumbra_),
-                        knob("softness", of, softness), value("largest", largest_), knob("red", of, left(0)),
+                        knob("softness", of, softness), value("largest", reach_.largest), knob("red", of, left(0)),
                         knob("green", of, left(1)), knob("blue", of, left(2)),
                         value("weight", style(of).weight / weights_) }));
         if (style(of).receivers.empty()) {
@@ -201,17 +202,17 @@ private:
     const LightVisibility& seen_;
     std::vector<std::size_t> places_;
     float penumbra_;
-    float largest_;
+    DistanceReach reach_;
     float weights_;
     std::vector<graph::Handle<Share>> changes_; ///< of what is seen, by each style; of no graph: by none
 };
 
-/// Metres of distances that are told apart, one number for all styles of a light, so that what one of them draws does
-/// not go by the penumbras of others; 0 where none of them moves edges.
-float largestOf(const LightVisibility& seen, const std::vector<scene::ShadowStyle>& styles)
+/// How far distances are found, the same for all styles of a light, so that what one of them draws does not go by the
+/// penumbras of others; both 0 where none of them moves edges.
+DistanceReach reachOf(const LightVisibility& seen, const std::vector<scene::ShadowStyle>& styles)
 {
     const float most = mostDistance(styles, 0.0f);
-    return most > 0.0f ? most + widthOf(seen.light) : 0.0f;
+    return { most > 0.0f ? most + widthOf(seen.light) : 0.0f, most };
 }
 
 } // namespace
@@ -227,9 +228,9 @@ graph::Handle<Value> softStyles(FrameBuilder& f, const LightVisibility& seen)
         places[styles[i].penumbra].push_back(i);
         weights += styles[i].weight;
     }
-    const float largest = largestOf(seen, styles);
+    const DistanceReach reach = reachOf(seen, styles);
     for (auto& [penumbra, alike] : places) {
-        LevelStyles(f, seen, std::move(alike), largest, weights).declare(sum);
+        LevelStyles(f, seen, std::move(alike), reach, weights).declare(sum);
     }
     return sum;
 }
@@ -241,10 +242,10 @@ void showSoftShadow(FrameBuilder& f, const LightVisibility& seen, const std::fun
     f.fill("unknown", matte, WEDGE_MATTE_UNKNOWN);
     findLevel(f, seen, 0.5f, updates("matte", matte), known);
     f.layers->add({ "shadowMatte", name, matte, Where::OnSurfaces });
-    const float largest = largestOf(seen, f.description.areaLights[seen.quad].styles);
-    if (largest > 0.0f) {
+    const DistanceReach reach = reachOf(seen, f.description.areaLights[seen.quad].styles);
+    if (reach.largest > 0.0f) {
         f.layers->add(
-            { "shadowDistance", name, shadowDistances(f, matte, {}, 0.0f, largest).distance, Where::OnSurfaces });
+            { "shadowDistance", name, shadowDistances(f, matte, {}, 0.0f, reach).distance, Where::OnSurfaces });
     }
 }
 

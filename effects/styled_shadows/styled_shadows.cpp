@@ -98,7 +98,7 @@ private:
 
     void distances()
     {
-        const ShadowDistances found = shadowDistances(f_, matte_, occluder_, farthest_, largest_);
+        const ShadowDistances found = shadowDistances(f_, matte_, occluder_, farthest_, DistanceReach::means(largest_));
         distance_ = found.distance;
         away_ = found.away;
     }

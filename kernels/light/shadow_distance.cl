@@ -15,9 +15,12 @@
 /// mean over edges, sum of a len r^-8 over that sum, a being that of an edge. As far from all edges as what is told
 /// apart it goes over into a pixel's own, within as much again.
 ///
+/// Where styles tell less apart than light of several levels has to, that mean is of pixels near to edges alone. As far
+/// from all edges as `meanWithin` it goes over into the distance to the nearest one, within as much again.
+///
 /// in      p, position, normal, matte, occluder; edges, boxes, listed[0], most: how many edges, room: for boxes;
 ///         published: 1 or 0; largest, farthest: metres, that are told apart of distances and of what hides the
-///         light, above 0
+///         light, above 0; meanWithin: metres, above 0
 /// in out  distance: metres, below 0 in shadow, 0 where the matte is unknown or nobody came to; away: metres, of what
 ///         hides the light
 #include "pass/shadowDistance.h"
@@ -63,11 +66,13 @@ __kernel void shadowDistance(PARAMETERS)
         const float16 nearest = nearestSquare(&b, beyond);
         const int16 near = b.known & (nearest < beyond);
         const float16 reach = WEDGE_EDGE_REACH * WEDGE_EDGE_REACH * min16(nearest, (float16)(square));
-        const float16 perUnit = perUnitOf(nearest);
-        sums = edgeSums(&b, perUnit, near ? reach : (float16)(-1.0f), perAway);
+        const float16 perUnit = perUnitOf(nearest), metres = sqrt(max16(nearest, (float16)(0.0f)));
+        const float16 beyondMean = min16(metres * (1.0f / meanWithin) - 1.0f, (float16)(1.0f));
+        sums = edgeSums(&b, perUnit, (near & (beyondMean < 1.0f)) ? reach : (float16)(-1.0f), perAway);
         const float16 power = log2Block(sums.weights * (1.0f / WEDGE_EDGE_CONSTANT)) * (-1.0f / 7.0f);
-        d = near ? min16(exp2Block(power) / perUnit, d) : d;
-        far = sqrt(max16(nearest, (float16)(0.0f))) * (1.0f / largest) - 1.0f;
+        const float16 mean = min16(exp2Block(power) / perUnit, d), other = min16(metres, d);
+        d = near ? (beyondMean > 0.0f ? mean + (other - mean) * beyondMean : mean) : d;
+        far = metres * (1.0f / largest) - 1.0f;
     }
     vstore16(b.known ? (v > 0.5f ? d : -d) : (float16)(0.0f), 0, distance + i);
 #if HAS_away
