@@ -203,7 +203,7 @@ TEST_CASE("shadows by lights: every way and count, and what takes as long")
     const Workplace place;
     // All but a thousandth of the pixels, of which an image as small has none.
     const Json ways { "additive", "subtractive", "subtractive, not clamped", "ratio", "subtractive, 8 a pixel",
-        "ratio, 8 a pixel", "ratio, 1/4 of pixels", "ratio, 1/16 of pixels" };
+        "ratio, 8 a pixel", "ratio, table of normals", "ratio, 1/4 of pixels", "ratio, 1/16 of pixels" };
     Arguments call { "--scene", "sky_phong500" };
     for (const Json& way : ways) {
         call.insert(call.end(), { "--way", way.get<std::string>() });
@@ -221,16 +221,16 @@ TEST_CASE("shadows by lights: every way and count, and what takes as long")
     CHECK(scene["name"] == "sky_phong500");
     CHECK(scene["reference"] == "aaf");
     CHECK(scene["reference_noise"].get<double>() > 0);
-    REQUIRE(scene["points"].size() == 1 + 8 * 2 + 2);
+    REQUIRE(scene["points"].size() == 1 + 9 * 2 + 2);
     for (const Json& point : scene["points"]) {
         CAPTURE(point["way"]);
         checkShadowPoint(point);
         CHECK(contains(outcome.out, point["way"].get<std::string>()));
     }
-    CHECK(scene["points"][17]["way"] == "mc");
-    CHECK(scene["points"][17]["time_of"] == "aaf");
-    CHECK(scene["points"][18]["way"] == "additive");
-    CHECK(scene["points"][18]["time_of"] == "subtractive");
+    CHECK(scene["points"][19]["way"] == "mc");
+    CHECK(scene["points"][19]["time_of"] == "aaf");
+    CHECK(scene["points"][20]["way"] == "additive");
+    CHECK(scene["points"][20]["time_of"] == "subtractive");
     const auto error = [&](const char* way, int count) {
         return shadowPoint(scene, way, count)["errors"]["rmse"].get<double>();
     };
@@ -239,7 +239,7 @@ TEST_CASE("shadows by lights: every way and count, and what takes as long")
     CHECK(shadowPoint(scene, "ratio", 40)["rays_per_pixel"] == shadowPoint(scene, "additive", 40)["rays_per_pixel"]);
     const std::string name = "rendering_filters.subtractive_sky_phong500.";
     CHECK(claim(all["claims"], name + "error_vs_additive")["goal"].is_null());
-    CHECK(claim(all["claims"], name + "lights_of_equal_time")["value"] == scene["points"][18]["count"]);
+    CHECK(claim(all["claims"], name + "lights_of_equal_time")["value"] == scene["points"][20]["count"]);
     CHECK(claim(all["claims"], name + "error_vs_additive_of_equal_lights")["value"]
         == error("subtractive", 40) / error("additive", 40));
     CHECK(claim(all["claims"], "rendering_filters.ratio_sky_phong500.error_vs_subtractive")["value"]
@@ -277,7 +277,7 @@ void checkStylized(const Json& scene)
             "edge_pieces", "errors", "ms", "name", "origin", "restyle_abstraction_ms", "restyle_ms" });
     CHECK(scene["edge_pieces"].get<int>() > 50);
     CHECK(keys(scene["ms"])
-        == std::set<std::string> { "blur", "distance", "edges", "frame", "matte", "no_style", "transfer" });
+        == std::set<std::string> { "blur", "distance", "edges", "frame", "matte", "no_style", "style", "transfer" });
     const bool blurs = !scene["restyle_abstraction_ms"].is_null();
     for (const auto& entry : scene["ms"].items()) {
         INFO(entry.key());
@@ -321,10 +321,22 @@ TEST_CASE("shadows in a style: pieces of edge, times of their passes, distances 
     CHECK(claim(all["claims"], name + "restyle_ms")["value"] == all["scenes"][0]["restyle_ms"]["median"]);
     CHECK(claim(all["claims"], name + "distance_error")["value"] == all["scenes"][0]["errors"]["device"]);
     // All numbers but the times are the same again.
-    const Outcome again =
-        place.run({ "stylized", "--quick", "--scene", "balls", "--samples", "8,128", "--json", "again.json" });
+    const Outcome again = place.run({ "stylized", "--quick", "--scene", "balls", "--scene", "balls_soft", "--samples",
+        "8,128", "--json", "again.json" });
     REQUIRE(again.status == 0);
     const Json second = Json::parse(place.text("again.json"));
+    // Soft shadows are drawn by passes of the same names, of many edges each.
+    const Json& soft = second["scenes"][1];
+    CHECK(soft["name"] == "balls_soft");
+    CHECK(soft["edge_pieces"].is_null());
+    CHECK(soft["errors"].is_null());
+    for (const char* part : { "matte", "edges", "distance", "blur", "transfer" }) {
+        CAPTURE(part);
+        CHECK(soft["ms"][part]["median"].get<double>() > 0);
+        CHECK(soft["ms"][part]["median"].get<double>() < soft["ms"]["style"]["median"].get<double>());
+    }
+    CHECK(claim(second["claims"], "rendering_filters.stylized_balls_soft.style_ms")["value"]
+        == soft["ms"]["style"]["median"]);
     CHECK(second["scenes"][0]["errors"] == all["scenes"][1]["errors"]);
     CHECK(second["scenes"][0]["edge_pieces"] == all["scenes"][1]["edge_pieces"]);
 }
@@ -351,11 +363,12 @@ TEST_CASE("wrong calls end in one line")
                 "way of shadows: --way magic: choose among: additive; subtractive" },
             { { "shadow-lights", "--lights", "0" }, 2, "--lights" },
             { { "shadow-lights", "--scene", "atlantis" }, 2, "grace_matt, grace_phong40" },
-            { { "stylized", "--scene", "atlantis" }, 2, "styled, balls, balls_smooth, balls_wide, squares" },
+            { { "stylized", "--scene", "atlantis" }, 2,
+                "styled, balls, balls_smooth, balls_wide, balls_soft, squares" },
             { { "stylized", "--samples", "0" }, 2, "--samples" },
             { { "stylized", "--variant", "path-density" }, 2, "--variant" },
             { { "stylized", "--reference-spp", "8" }, 2, "--reference-spp" },
-            { { "stylized", "--scene", box }, 1, "give a point or directional light a [[light.style]]" },
+            { { "stylized", "--scene", box }, 1, "give a point light, a directional one or a quad a [[light.style]]" },
             { { "shadow-lights", "--scene", box }, 1, "give it an [environment]" },
         });
 }

@@ -33,6 +33,11 @@ const std::vector<ShadowWay>& shadowWays()
                 s.shadows = Shadows::Ratio;
                 s.chosen = 8;
             } },
+        { "ratio, table of normals",
+            [](ShadowSettings& s) {
+                s.shadows = Shadows::Ratio;
+                s.whole = render::WholeLight::Cache;
+            } },
         { "ratio, 1/4 of pixels",
             [](ShadowSettings& s) {
                 s.shadows = Shadows::Ratio;

@@ -31,7 +31,7 @@ Json skeleton(const StylizedPlan& plan, const device::DeviceInfo& device)
 CLI::App& addStylized(CLI::App& parser, StylizedCall& call)
 {
     CLI::App& out =
-        *parser.add_subcommand("stylized", "Measures hard shadows in a style: their passes' times, and distances.");
+        *parser.add_subcommand("stylized", "Measures shadows in a style: their passes' times, and distances.");
     // Before the others, which change what it leaves.
     out.add_flag_callback(
         "--quick", [&call] { makeQuick(call.plan); }, "160x120, one repeat: to see that it works, not to report");

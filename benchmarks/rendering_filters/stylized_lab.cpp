@@ -20,15 +20,23 @@ namespace {
 /// Passes by what they are for, as reports name them.
 const std::map<std::string, std::vector<std::string>>& parts()
 {
-    static const std::map<std::string, std::vector<std::string>> all { { "matte", { "shadows in a style" } },
-        { "edges", { "edges of shadows" } }, { "distance", { "distances to shadows' edges" } },
-        { "blur", { "blur of shadows' edges" } }, { "transfer", { "areas of shadows", "styles of shadows" } } };
+    static const std::map<std::string, std::vector<std::string>> all {
+        { "matte", { "shadows in a style", "levels of a shadow" } }, { "edges", { "edges of shadows" } },
+        { "distance", { "distances to shadows' edges" } }, { "blur", { "blur of shadows' edges" } },
+        { "transfer", { "areas of shadows", "styles of shadows" } }
+    };
     return all;
 }
 
-render::Settings settingsOf(const StylizedPlan& plan, bool styles)
+bool isSoft(const scene::Scene& scene)
 {
-    render::Settings out = render::monteCarlo(1);
+    return std::ranges::any_of(scene.areaLights, [](const scene::AreaLight& light) { return !light.styles.empty(); });
+}
+
+/// Soft shadows are filtered before they have a style.
+render::Settings settingsOf(const scene::Scene& scene, const StylizedPlan& plan, bool styles)
+{
+    render::Settings out = isSoft(scene) ? render::axisAligned() : render::monteCarlo(1);
     out.width = plan.width;
     out.height = plan.height;
     out.styles = styles;
@@ -39,8 +47,9 @@ render::Settings settingsOf(const StylizedPlan& plan, bool styles)
 StylizedTimes timesOf(render::Renderer& renderer, const StylizedPlan& plan)
 {
     std::map<std::string, std::vector<double>> ofParts;
-    std::vector<double> frames, plain;
-    const render::Settings styled = settingsOf(plan, true), without = settingsOf(plan, false);
+    std::vector<double> frames, plain, together;
+    const render::Settings styled = settingsOf(renderer.scene(), plan, true);
+    const render::Settings without = settingsOf(renderer.scene(), plan, false);
     renderer.rehearse(styled);
     renderer.rehearse(without);
     for (int turn = -1; turn < plan.seeds; ++turn) {
@@ -51,17 +60,19 @@ StylizedTimes timesOf(render::Renderer& renderer, const StylizedPlan& plan)
         }
         plain.push_back(plainMilliseconds);
         frames.push_back(frame.deviceMilliseconds);
+        together.push_back(0);
         for (const auto& [part, passes] : parts()) {
             double sum = 0;
             for (const std::string& pass : passes) {
                 sum += frame.milliseconds(pass);
             }
             ofParts[part].push_back(sum);
+            together.back() += sum;
         }
     }
     const auto summary = [&](const char* part) { return summarize(ofParts[part]); };
     return { summary("matte"), summary("edges"), summary("distance"), summary("blur"), summary("transfer"),
-        summarize(frames), summarize(plain) };
+        summarize(together), summarize(frames), summarize(plain) };
 }
 
 using Turn = std::function<void(scene::ShadowStyle&, float)>;
@@ -77,6 +88,7 @@ void turnStyles(scene::Scene& scene, const Turn& turn, float factor)
     };
     each(scene.pointLights);
     each(scene.directionalLights);
+    each(scene.areaLights);
 }
 
 void turnShades(scene::ShadowStyle& style, float factor)
@@ -117,7 +129,7 @@ RestyleTimes restylesOf(scene::Scene scene, const device::Device& device, const 
     };
     turnStyles(scene, addKey, 1.1f);
     render::Renderer renderer(scene, device);
-    render::Settings settings = settingsOf(plan, true);
+    render::Settings settings = settingsOf(scene, plan, true);
     settings.sameNumbers = true;
     renderer.rehearse(settings);
     renderer.render(settings);
@@ -171,12 +183,15 @@ StylizedResult measureStyles(const StylizedScene& source, const device::Device& 
 {
     const scene::Scene scene = scene::loadScene(source.file());
     render::Renderer renderer(scene, device);
-    const render::Settings settings = settingsOf(plan, true);
+    const render::Settings settings = settingsOf(scene, plan, true);
     const std::vector<render::StyledLight> lights = render::styledLights(settings, renderer.scene());
-    if (lights.empty()) {
-        throw Error("scene", source.name, "give a point or directional light a [[light.style]]");
+    if (lights.empty() && !isSoft(scene)) {
+        throw Error("scene", source.name, "give a point light, a directional one or a quad a [[light.style]]");
     }
-    StylizedResult out { source, 0, timesOf(renderer, plan), restylesOf(scene, device, plan), {} };
+    StylizedResult out { source, isSoft(scene), 0, timesOf(renderer, plan), restylesOf(scene, device, plan), {} };
+    if (lights.empty()) {
+        return out;
+    }
     renderer.render(settings, {}, true);
     const std::string light = "." + lights.front().name;
     if (renderer.frame().has("shadowDistance" + light)) {

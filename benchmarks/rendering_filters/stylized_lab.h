@@ -23,6 +23,7 @@ struct StylizedPlan : MeasurePlan {
 /// The passes of styled shadows, by what they are for.
 struct StylizedTimes {
     Summary matte, edges, distance, blur, transfer; ///< milliseconds of the device
+    Summary style; ///< all of these together
     Summary frame, plainFrame; ///< the same of whole frames, with styles and without
 };
 
@@ -44,10 +45,11 @@ struct StylizedErrors {
 /// What was measured of a scene.
 struct StylizedResult {
     StylizedScene source;
-    std::size_t pieces = 0; ///< of edge; of the first light with a style
+    bool soft = false; ///< shadows of quads have a style
+    std::size_t pieces = 0; ///< of edge; of the first point or directional light with a style
     StylizedTimes times;
     RestyleTimes restyle;
-    std::optional<StylizedErrors> errors; ///< none where no style moves or softens an edge
+    std::optional<StylizedErrors> errors; ///< none where no style moves or softens an edge of a hard shadow
 };
 
 /// Throws Error where no light's shadows have a style.

@@ -10,7 +10,7 @@
 namespace wedge::benchmark {
 namespace {
 
-/// Of the comment, the sun's style, what throws its shadow, and the folder data/scenes.
+/// Of the comment, the light with its style, what throws its shadow, and the folder data/scenes.
 constexpr const char* sceneText = R"(# {0}
 [camera]
 eye = [0, 4.2, 5]
@@ -35,14 +35,30 @@ material = "floor"
 transform = {{ scale = 40 }}
 
 {2}
-[[light]]
+{1}
+)";
+
+constexpr const char* sunText = R"([[light]]
 type = "directional"
 name = "sun"
 direction = [0.35, -1, 0.2]
 irradiance = [2.6, 2.4, 2.1]
 
 [[light.style]]
-{1}
+)";
+
+/// About as much light from where that sun is.
+constexpr const char* quadText = R"([[light]]
+type = "quad"
+name = "lamp"
+centre = [-3.5, 10, -2]
+half_u = [0.4, 0, 0]
+half_v = [0, 0, 0.4]
+radiance = [540, 500, 440]
+two_sided = true
+visible = false
+
+[[light.style]]
 )";
 
 constexpr double jitter = 0.1; ///< metres that a ball may be beside its place
@@ -83,11 +99,13 @@ std::string squareMesh()
     return mesh.text();
 }
 
-StylizedScene ofBalls(const std::string& name, const std::string& style, const std::string& meaning)
+/// light: up to its style
+StylizedScene ofBalls(
+    const std::string& name, const std::string& style, const std::string& meaning, const std::string& light = sunText)
 {
     const std::string origin = fmt::format("140 balls of radius 0.09 m, 0.6 m over a floor: {}", meaning);
     const auto text = [=](const std::string& scenes) {
-        return fmt::format(sceneText, origin, style, balls(scenes), scenes);
+        return fmt::format(sceneText, origin, light + style, balls(scenes), scenes);
     };
     return { writtenScene(name, origin, text), true };
 }
@@ -98,7 +116,7 @@ StylizedScene ofSquares()
     const auto text = [origin](const std::string& scenes) {
         const std::string mesh =
             fmt::format("[[mesh]]\nname = \"squares\"\nfile = '{}'\nmaterial = \"thing\"\n", squareFile);
-        return fmt::format(sceneText, origin, "inflation = 1", mesh, scenes);
+        return fmt::format(sceneText, origin, sunText + std::string("inflation = 1"), mesh, scenes);
     };
     StylizedScene out { writtenScene("squares", origin, text), false };
     out.file = [scene = out.file] {
@@ -118,6 +136,9 @@ std::vector<StylizedScene> stylizedScenes()
         ofBalls("balls_smooth", "inflation = 0.02\nsoftness = 0.05\nabstraction = 0.03\nbrightness = [0.1, 0.14, 0.24]",
             "all knobs"),
         ofBalls("balls_wide", "inflation = 0.3\nsoftness = 0.3", "distances as far as the balls are apart"),
+        ofBalls("balls_soft",
+            "penumbra = 0.5\ninflation = 0.02\nsoftness = 0.05\nabstraction = 0.03\nbrightness = [0.1, 0.14, 0.24]",
+            "all knobs of a quad's soft shadows", quadText),
         ofSquares() };
 }
 

@@ -6,7 +6,7 @@
 
 namespace wedge::benchmark {
 
-/// A scene with a light whose hard shadows have a style.
+/// A scene with a light whose shadows have a style.
 struct StylizedScene : SceneSource {
     bool hasGoals = false; ///< it is one of those that goals are stated for
 };
