@@ -162,7 +162,7 @@ private:
 class RandomGraph {
 public:
     explicit RandomGraph(unsigned seed)
-        : graph(width, height, 7 * alignment / 4)
+        : graph(width, height, 7 * alignment / 4, static_cast<int>(seed % 3) * 5)
         , random_(seed)
     {
         body(0, 6);
@@ -225,6 +225,7 @@ private:
         }
         Pass pass = passOf("pass " + std::to_string(graph.passes().size()), std::move(uses));
         pass.everywhere = random_() % 8 == 0;
+        pass.ofShown = random_() % 8 == 0;
         pass.constant = pass.arguments.size() == 1 && random_() % 2 == 0;
         graph.add(std::move(pass));
     }
@@ -514,6 +515,41 @@ TEST_CASE("a crop's windows grow backwards by what filters reach, and analyses c
     CHECK(reached({ 2, 0, 7, 5 }, around(1), { 0, 0, 20, 6 }) == Window { 1, 0, 8, 6 });
     CHECK(reached({ 0, 0, 7, 5 }, wholeImage, { 0, 0, 20, 6 }) == Window { 0, 0, 20, 6 });
     CHECK(reached({}, around(30), { 0, 0, 20, 6 }).empty());
+}
+
+TEST_CASE("what is beyond the image that is shown is made where it is read, and lists are of it unless they say other")
+{
+    Graph graph(100, 60, 1024, 10);
+    const Window all { 0, 0, 100, 60 }, shown { 10, 10, 90, 50 };
+    CHECK(graph.image() == all);
+    CHECK(graph.shown() == shown);
+    CHECK(graph.shown(Scale::Quarter) == Window { 2, 2, 23, 13 });
+    CHECK(graph.layout(Scale::Full) == PlaneLayout(80, 40, 10));
+    auto first = graph.plane<Metres>("first", floats), second = graph.plane<Metres>("second", floats);
+    auto counted = graph.plane<Metres>("counted", floats), image = graph.plane<Metres>("image", floats);
+    auto ofShown = graph.list<Metres>("list of the image", floats, 1);
+    auto ofAll = graph.list<Metres>("list of all", floats, 1);
+    const auto everywhere = [&](const char* name, std::vector<Argument> uses) {
+        Pass pass = passOf(name, std::move(uses));
+        pass.everywhere = true;
+        graph.add(std::move(pass));
+    };
+    everywhere("first", { writes("first", first) });
+    everywhere("second", { reads("first", first), writes("second", second) });
+    Pass list = passOf("list of the image", { reads("second", second, { .x = 3 }), writes("list", ofShown) });
+    list.ofShown = true;
+    graph.add(std::move(list));
+    add(graph, "counted", { reads("list", ofShown), writes("counted", counted) });
+    add(graph, "list of all", { reads("counted", counted), writes("list", ofAll) });
+    add(graph, "image", { reads("list", ofAll), reads("counted", counted), writes("image", image) });
+    graph.want(image, { 30, 20, 40, 30 });
+    std::vector<Window> windows;
+    const Plan plan(graph, alignment);
+    for (const PlannedPass& planned : plan.passes) {
+        windows.push_back(planned.window);
+    }
+    const Window reach { 7, 10, 93, 50 };
+    CHECK(windows == std::vector<Window> { reach, reach, shown, all, all, { 30, 20, 40, 30 } });
 }
 
 TEST_CASE("nothing is run for a tally's sake, and none is lost")

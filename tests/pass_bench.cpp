@@ -1,5 +1,6 @@
 #include "tests/pass_bench.h"
 
+#include "host/render/effect.h"
 #include "tests/plane_coding.h"
 #include "tests/product_programs.h"
 
@@ -67,7 +68,7 @@ private:
 DeclaredFrame::DeclaredFrame(const device::Device& device, const scene::Scene& scene, const render::Settings& settings,
     bool keepLayers, const render::Options& options)
     : renderer(scene, device, options)
-    , layout(settings.width, settings.height)
+    , layout(render::frameLayout(settings, renderer.scene()))
     , tree(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
     , onDevice(renderer.scene(), tree, renderer.device(), renderer.queue())
     , memories_ { render::SampleMemory(&renderer.device()), render::SampleMemory(&renderer.device()) }
@@ -77,7 +78,7 @@ DeclaredFrame::DeclaredFrame(const device::Device& device, const scene::Scene& s
 
 PassBench::PassBench(render::Renderer& renderer, const graph::Graph& graph, const std::string& kernel,
     const std::string& pass, std::size_t nth)
-    : layout(graph.image().width(), graph.image().height())
+    : layout(graph.layout(graph::Scale::Full))
     , renderer_(renderer)
 {
     std::size_t found = 0;

@@ -186,8 +186,7 @@ std::vector<T> pixels(render::Renderer& renderer, const device::Buffer<T>& plane
     for (int y = window.y0; y < window.y1; ++y)
         for (int x = window.x0; x < window.x1; ++x)
             for (std::size_t plane = 0; plane < count; ++plane)
-                out.push_back(values[plane * layout.size
-                    + shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride)]);
+                out.push_back(values[plane * layout.size + layout.index(x, y)]);
     return out;
 }
 

@@ -387,7 +387,7 @@ void TemporalFilter::next(std::shared_ptr<const ObjectPlaces> places, bool filte
 
 void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const render::PreparedScene& scene) const
 {
-    const render::PlaneLayout layout(settings.width, settings.height);
+    const render::PlaneLayout layout = render::frameLayout(settings, scene);
     for (std::size_t i = 0; i < keptOf(hasIndirect(settings, scene)); ++i) {
         // Allocated one by one.
         for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
@@ -398,7 +398,7 @@ void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, c
 
 void TemporalFilter::allocate(const Settings& settings, const render::PreparedScene& scene)
 {
-    const render::PlaneLayout layout(settings.width, settings.height);
+    const render::PlaneLayout layout = render::frameLayout(settings, scene);
     const std::size_t planes = keptOf(hasIndirect(settings, scene));
     for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
         Kept& kept = kept_.at(k);

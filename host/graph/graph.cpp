@@ -21,8 +21,9 @@ bool isAbsent(const Argument& argument) { return argument.absent != nullptr; }
 
 std::uint64_t Resource::bytes() const { return elements > most / format.bytes ? most : elements * format.bytes; }
 
-Graph::Graph(int width, int height, std::uint64_t planeElements)
+Graph::Graph(int width, int height, std::uint64_t planeElements, int margin)
     : image_ { 0, 0, width, height }
+    , shown_ { margin, margin, width - margin, height - margin }
     , planeElements_(planeElements)
 {
     static std::atomic<std::uint32_t> graphs { 0 };
@@ -52,7 +53,12 @@ Window Graph::converted(const Window& window, Scale from, Scale to) const
     return { frame.x0 / b, frame.y0 / b, (frame.x1 + b - 1) / b, (frame.y1 + b - 1) / b };
 }
 
-PlaneLayout Graph::layout(Scale scale) const { return { image(scale).x1, image(scale).y1 }; }
+PlaneLayout Graph::layout(Scale scale) const
+{
+    const Window all = image(scale);
+    const int margin = shown_.x0 / static_cast<int>(scale);
+    return { all.x1 - 2 * margin, all.y1 - 2 * margin, margin };
+}
 
 std::uint64_t Graph::planeElements(Scale scale) const
 {

@@ -222,7 +222,8 @@ struct Pass {
     std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
-    bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
+    bool everywhere = false; ///< covers all that is shown, whatever part of its results is wanted
+    bool ofShown = false; ///< makes lists of all that is shown; others' are of margins, too
     /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory
     /// is not taken before.
     bool constant = false;
@@ -262,8 +263,9 @@ struct Resource {
 
 class Graph {
 public:
-    /// Of an image. planeElements: of each plane, padding included; planes of other scales lie as PlaneLayout says.
-    Graph(int width, int height, std::uint64_t planeElements);
+    /// Of the pixels that planes have. planeElements: of each plane, padding included; planes of other scales lie as
+    /// PlaneLayout says. margin: so many of these pixels along each border are beyond the image that is shown.
+    Graph(int width, int height, std::uint64_t planeElements, int margin = 0);
     Graph(const Graph&) = delete; // passes and handles know it
     Graph& operator=(const Graph&) = delete;
 
@@ -339,6 +341,8 @@ public:
     Window image() const { return image_; }
     /// All pixels of a scale.
     Window image(Scale scale) const;
+    /// Of these the ones of the image that is shown: all, but for margins.
+    Window shown(Scale scale = Scale::Full) const { return converted(shown_, Scale::Full, scale); }
     /// How planes of a scale lie; of Full as the frame's have to, for what asks.
     PlaneLayout layout(Scale scale) const;
     /// The pixels of scale `to` that lie over those of a window, in part or whole.
@@ -355,7 +359,7 @@ private:
     Resource& checkedUse(const Pass& pass, const Argument& use);
 
     std::uint32_t id_;
-    Window image_;
+    Window image_, shown_;
     std::uint64_t planeElements_;
     std::vector<Resource> resources_;
     std::deque<Pass> passes_;

@@ -20,12 +20,18 @@ std::uint64_t wholeParts(std::uint64_t elements)
 
 } // namespace
 
-PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
-    : width(static_cast<std::uint32_t>(imageWidth))
-    , height(static_cast<std::uint32_t>(imageHeight))
+PlaneLayout::PlaneLayout(int imageWidth, int imageHeight, int marginPixels)
+    : width(static_cast<std::uint32_t>(imageWidth + 2 * marginPixels))
+    , height(static_cast<std::uint32_t>(imageHeight + 2 * marginPixels))
+    , margin(static_cast<std::uint32_t>(marginPixels))
     , stride(static_cast<std::uint32_t>(strideFor(width)))
     , size(wholeParts(static_cast<std::uint64_t>(stride) * height + 2 * WEDGE_ROW_PADDING))
 {
+}
+
+std::uint32_t PlaneLayout::index(int x, int y) const
+{
+    return shared::pixelIndex(static_cast<std::uint32_t>(x) + margin, static_cast<std::uint32_t>(y) + margin, stride);
 }
 
 } // namespace wedge::graph

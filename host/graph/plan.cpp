@@ -123,7 +123,7 @@ private:
         const int tiled = tiledLoop(pass.loop);
         const bool all = pass.always || pass.everywhere || lists || !planes;
         if (!wanted || tiled < 0) {
-            return !wanted ? std::nullopt : all ? graph_.image(pass.scale) : ofPlanes;
+            return !wanted || !all ? ofPlanes : allOf(pass).with(ofPlanes.value_or(Window()));
         }
         std::optional<Window>& shared = shared_[static_cast<std::size_t>(tiled)];
         const std::optional<Window> own = pass.everywhere ? graph_.image() : ofPlanes;
@@ -135,6 +135,12 @@ private:
             shared = grown;
         }
         return shared;
+    }
+
+    /// What a pass covers that does not go by what is wanted of it alone.
+    Window allOf(const Pass& pass) const
+    {
+        return pass.everywhere || pass.ofShown ? graph_.shown(pass.scale) : graph_.image(pass.scale);
     }
 
     /// The outermost loop around a pass whose passes cover one window, or -1.

@@ -7,7 +7,7 @@ namespace wedge::render {
 DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, true)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
+    , f_ { graph_, scene, deviceScene, settings_, layout_, packetSize }
     , samples_(f_, sampleShape(settings, scene, keepLayers, filter != nullptr), {})
 {
     samples_.take(nullptr);

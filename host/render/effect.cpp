@@ -1,5 +1,7 @@
 #include "host/render/effect.h"
 
+#include "host/render/distributed_samples.h"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -60,6 +62,15 @@ std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const Prepared
         }
     }
     return out;
+}
+
+PlaneLayout frameLayout(const Settings& settings, const PreparedScene& scene)
+{
+    int margin = 0;
+    for (const auto& effect : effects()) {
+        margin = isDistributed(settings, scene) ? 0 : std::max(margin, effect->margin(settings, scene));
+    }
+    return { settings.width, settings.height, margin };
 }
 
 device::GeneratedSources programSources(const scene::Scene& scene)

@@ -96,6 +96,10 @@ public:
     {
     }
 
+    /// How many pixels beyond the image's border it has to know of what there is, at least 0; where pixels have one
+    /// receiver. All else of the frame is as it is in the image.
+    virtual int margin(const Settings&, const PreparedScene&) const { return 0; }
+
     /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
     virtual std::string absence(Part) const { return ""; }
     /// Terms that it could have, as far as filters can be on them.
@@ -135,6 +139,9 @@ std::size_t countOf(Part part, const std::vector<Term>& terms);
 
 /// Unfiltered light of a frame, by effects.
 std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const PreparedScene& scene);
+
+/// How a frame's planes lie, with the margin that its effects need.
+PlaneLayout frameLayout(const Settings& settings, const PreparedScene& scene);
 
 /// What effects have programs made of.
 device::GeneratedSources programSources(const scene::Scene& scene);

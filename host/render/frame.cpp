@@ -39,7 +39,7 @@ Axes axesOf(const scene::Camera& camera, std::uint32_t height)
 shared::FrameParams frameParams(
     const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)
 {
-    const Axes axes = axesOf(scene::middleCamera(scene), layout.height);
+    const Axes axes = axesOf(scene::middleCamera(scene), layout.imageHeight());
     shared::FrameParams p {};
     p.width = layout.width;
     p.height = layout.height;
@@ -55,6 +55,7 @@ shared::FrameParams frameParams(
     p.right = toVec3(axes.right);
     p.down = toVec3(axes.down);
     p.background = toVec3(scene.background);
+    p.margin = layout.margin;
     return p;
 }
 

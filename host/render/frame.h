@@ -24,7 +24,7 @@ void setRectangle(Params& params, const image::Window& window)
 }
 
 /// The frame's constants for the pixels of `window`, tiles included. The camera is that of the middle of the shutter's
-/// time.
+/// time; beyond the image it sees what a wider one would.
 shared::FrameParams frameParams(
     const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
 

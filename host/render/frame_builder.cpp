@@ -17,6 +17,13 @@ shared::FrameParams FrameBuilder::wholeFrame() const
     return frameParams(description, layout, graph.image(), frameSeed(settings));
 }
 
+Window FrameBuilder::output() const
+{
+    const Window w = outputWindow(settings);
+    const int margin = static_cast<int>(layout.margin);
+    return { w.x0 + margin, w.y0 + margin, w.x1 + margin, w.y1 + margin };
+}
+
 shared::AnalysisParams FrameBuilder::analysisParams() const
 {
     shared::AnalysisParams p {};
@@ -158,7 +165,7 @@ void FrameBuilder::count(const graph::Version& counted, bool everywhere, graph::
     graph::Handle<Count>* plane, const std::optional<graph::Version>& mask)
 {
     shared::AnalysisParams p = analysisParams();
-    setRectangle(p, everywhere ? graph.image() : outputWindow(settings));
+    setRectangle(p, everywhere ? graph.image() : output());
     items("composite", PassKind::Composite, { "frame/tally.cl", "addToTally" }, WEDGE_TALLY_STRIPES,
         { graph::value("p", p), graph::readsAsIs("counts", counted),
             mask ? graph::readsAsIs("mask", *mask) : graph::absent("mask", graph::counts),

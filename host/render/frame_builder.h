@@ -146,8 +146,10 @@ struct FrameBuilder {
     bool analysed() const { return settings.method == Method::AxisAligned; }
     /// The formats of surfaces, for programs that gather over them, and more defines.
     device::Defines surfaceFormats(device::Defines more = {}) const;
-    /// Of the whole image.
+    /// Of the whole image, margins included.
     shared::FrameParams wholeFrame() const;
+    /// The pixels that the frame produces, where planes have them.
+    Window output() const;
     /// Where kernels of analysis find pixels; the rectangle is to come.
     shared::AnalysisParams analysisParams() const;
 

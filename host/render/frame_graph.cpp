@@ -12,7 +12,9 @@ FrameGraph::FrameGraph(const Settings& settings, const PreparedScene& scene, boo
     : settings_(settings)
     , keepsLayers_(keepLayers)
     , distributed_(distributed)
-    , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
+    , layout_(frameLayout(settings, scene))
+    , graph_(static_cast<int>(layout_.width), static_cast<int>(layout_.height), layout_.size,
+          static_cast<int>(layout_.margin))
     , terms_(frameTerms(settings, scene))
     , unfiltered_(frameUnfiltered(settings, scene))
 {
@@ -110,7 +112,7 @@ void FrameGraph::finish(FrameBuilder& frame)
     auto shaded = graph_.list<Tally>("tally of shaded pixels", tallySums, WEDGE_TALLY_STRIPES);
     auto matte = graph_.list<Tally>("tally of matte pixels", tallySums, WEDGE_TALLY_STRIPES);
     shared::AnalysisParams p = frame.analysisParams();
-    const Window output = outputWindow(settings_);
+    const Window output = frame.output();
     setRectangle(p, output);
     const Output* specular = outputs_.find("specular");
     frame.items("composite", device::PassKind::Composite, { "frame/tally.cl", "countSurfaces" }, WEDGE_TALLY_STRIPES,
@@ -125,8 +127,7 @@ void FrameGraph::finish(FrameBuilder& frame)
 
 std::unique_ptr<Frame> FrameGraph::outputs(const graph::Execution& execution) const
 {
-    auto frame =
-        std::make_unique<Frame>(Frame { PlaneLayout(settings_.width, settings_.height), distributed_, keepsLayers_ });
+    auto frame = std::make_unique<Frame>(Frame { layout_, distributed_, keepsLayers_ });
     for (const Output& output : outputs_.all()) {
         const graph::Resource& resource = graph_.resources()[output.version.resource];
         const auto memory = execution.output<std::byte>(output.version);

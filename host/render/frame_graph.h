@@ -58,6 +58,7 @@ private:
 protected:
     Settings settings_;
     bool keepsLayers_, distributed_;
+    PlaneLayout layout_; ///< of its planes
     graph::Graph graph_;
     Outputs outputs_;
     std::vector<Term> terms_;

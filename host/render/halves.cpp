@@ -27,7 +27,6 @@ double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) 
 HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers, HalfMemories& memories, int before, int spp)
     : FrameGraph(settings, scene, keepLayers, true)
-    , layout_(settings.width, settings.height)
 {
     const SampleShape shape = sampleShape(settings, scene, keepLayers);
     const auto taken = static_cast<std::uint32_t>(before == 0 ? 0 : halfAt(settings, before).spp);
@@ -206,8 +205,7 @@ ErrorEstimate HalvesFrame::error(const graph::Execution& execution, device::Time
     ErrorEstimate sum { 0, 0 };
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) {
-            const std::size_t i =
-                shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout_.stride);
+            const std::size_t i = layout_.index(x, y);
             sum.noise += noise[i];
             sum.bias += bias[i];
         }

@@ -50,7 +50,6 @@ private:
     void join();
     void estimateError(bool analysed);
 
-    PlaneLayout layout_;
     std::array<Half, 2> halves_;
     graph::Handle<Squares> noise_, bias_;
 };

@@ -135,8 +135,7 @@ private:
         out.values.reserve(static_cast<std::size_t>(window.width()) * window.height());
         for (int y = window.y0; y < window.y1; ++y) {
             for (int x = window.x0; x < window.x1; ++x) {
-                const std::size_t i = shared::pixelIndex(
-                    static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_.layout.stride);
+                const std::size_t i = frame_.layout.index(x, y);
                 out.values.push_back(where == Where::Everywhere || objectId_[i] != 0 ? value(i) : 0.0f);
             }
         }

@@ -18,7 +18,7 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
     std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, false)
     , apart_(showsParts() || filter != nullptr)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
+    , f_ { graph_, scene, deviceScene, settings_, layout_, packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;

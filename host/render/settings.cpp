@@ -309,6 +309,8 @@ void validate(const Settings& s, bool distributed)
         text(s.maxSurfaces), fmt::format("a whole number from 1 to {}", mostSurfaces));
     requireRange(
         s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
+    requireRange(s.styleMargin >= 0 && s.styleMargin <= 1, "margin of styles", text(s.styleMargin),
+        "a part of the image's longer side, 0 to 1");
     const IndirectSettings& in = s.indirect;
     requireRange(
         std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");

@@ -245,6 +245,9 @@ struct Settings {
     int maxSurfaces = 16;
     LightSampling lightSampling = LightSampling::Both;
     bool styles = true; ///< shadows are drawn as lights' styles say, docs/stylized-shadows.md; false: as they are
+    /// How far beyond the border shadows are known that styles move, in parts of the image's longer side, and up to 15
+    /// pixels more. docs/stylized-shadows.md says what for
+    float styleMargin = 0.125f;
     IndirectSettings indirect;
     EnvironmentSettings environment;
     bool progressive = false; ///< for Renderer::renderProgressively(); spp: of the last image

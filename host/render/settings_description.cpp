@@ -136,6 +136,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     if (!s.styles) {
         out.emplace_back("styles", "off");
     }
+    if (s.styles && s.styleMargin != Settings().styleMargin) {
+        out.emplace_back("styleMargin", number(s.styleMargin));
+    }
     if (s.sameNumbers) {
         out.emplace_back("sequence", "same random numbers");
     }

@@ -53,9 +53,10 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
         statistics.primarySpp = static_cast<double>(sumOf("primaryShownTally"))
             / static_cast<double>(pixelsIn(output.width(), output.height()));
     } else {
-        const bool whole = settings.method == Method::AxisAligned; // a crop analyses all
-        statistics.primaryRays =
-            whole ? pixelsIn(settings.width, settings.height) : pixelsIn(output.width(), output.height());
+        const PlaneLayout& layout = frame_->layout;
+        const bool whole = settings.method == Method::AxisAligned || layout.margin > 0; // a crop analyses all
+        statistics.primaryRays = whole ? pixelsIn(static_cast<int>(layout.width), static_cast<int>(layout.height))
+                                       : pixelsIn(output.width(), output.height());
     }
     statistics.indirectRays = sumOf("pathRaysTally");
     statistics.shadowRays = sumOf("raysTally") - statistics.indirectRays;

@@ -21,7 +21,7 @@ WEDGE_INLINE Lobe glossLobe(uint packed) { return lobeOf(unpackGloss(packed)); }
 /// Seed of the samples of a pixel and light.
 WEDGE_FN uint receiverSeed(FrameParams frame, uint light, uint x, uint y)
 {
-    return hashCombine(hashCombine(frame.seed, light), y * frame.width + x);
+    return hashCombine(hashCombine(frame.seed, light), pixelNumber(frame, x, y));
 }
 
 WEDGE_FN Receiver loadReceiver(FrameParams frame, ReceiverData data, uint i)

@@ -36,7 +36,7 @@ WEDGE_FN void loadMirrors(FrameParams frame, uint firstGroup, ReceiverData data,
         bool mirror = receiverOf(frame, data, firstGroup, lane, &i, &x, &y);
         mirror = mirror && data.objectId[i] != 0u && WEDGE_IS_MIRROR(data.gloss[i]);
         own->at[lane] = mirror ? i : 0u;
-        own->seed[lane] = hashCombine(hashCombine(frame.seed, WEDGE_MIRROR_SEED), y * frame.width + x);
+        own->seed[lane] = hashCombine(hashCombine(frame.seed, WEDGE_MIRROR_SEED), pixelNumber(frame, x, y));
         own->kind[lane] = mirror ? data.gloss[i] : 0u;
         const Vec3 none = vec3(0.0f, 0.0f, 1.0f), position = mirror ? loadVec(data.position, frame.planeSize, i) : none;
         setLaneVec(&own->position, lane, position);

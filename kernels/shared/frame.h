@@ -20,7 +20,7 @@
 WEDGE_SHARED_BEGIN
 
 typedef struct {
-    uint width, height; ///< pixels of the full image
+    uint width, height; ///< pixels of the full image, margins included
     uint stride; ///< floats from one row of a plane to the next
     uint planeSize; ///< floats of a plane
     uint x0, y0, x1, y1; ///< the rectangle of pixels to work on, half open
@@ -34,7 +34,14 @@ typedef struct {
     Vec3 down; ///< image-plane step of one pixel in y at distance 1
     Vec3 background;
     uint receivers; ///< of a wave, which lie one after the other; 0: the pixels of the rectangle are the receivers
+    uint margin; ///< pixels along each border that are beyond the image that is shown
 } FrameParams;
+
+/// A number of each pixel, for its random numbers: in the image the same with a margin and without.
+WEDGE_FN uint pixelNumber(FrameParams frame, uint x, uint y)
+{
+    return (y - frame.margin) * (frame.width - 2u * frame.margin) + (x - frame.margin);
+}
 
 /// Index of pixel (x, y) in a plane.
 WEDGE_FN uint pixelIndex(uint x, uint y, uint stride) { return WEDGE_ROW_PADDING + y * stride + x; }
