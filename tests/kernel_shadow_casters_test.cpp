@@ -50,7 +50,7 @@ PassBench benchOfCasters(DeclaredFrame& frame)
 TEST_CASE("shadowOfCasters: what casters hide, and what all other things do, each as if alone")
 {
     onEveryDevice([](const device::Device& device) {
-        DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
+        DeclaredFrame frame(device, named(), settings());
         PassBench bench = benchOfCasters(frame);
         CHECK(bench.own<std::uint32_t>("objects") == 6);
         bench.plane("casters", std::vector<std::uint32_t> { 0, 0, 0, 0, 1, 1 });
@@ -95,7 +95,7 @@ TEST_CASE("a frame's work has each shadow of a light, one of each group of caste
         std::vector<scene::ShadowStyle>& styles = scene.directionalLights.front().styles;
         styles.resize(3, styles.front());
         styles.back().casters = { "board" };
-        const DeclaredFrame frame(device, scene, sized(render::monteCarlo(1), width, height));
+        const DeclaredFrame frame(device, scene, settings());
         const auto work = render::styledShadows()->unfiltered(render::monteCarlo(1), frame.scene());
         REQUIRE(work);
         CHECK(work->workUnits == 2);
@@ -105,7 +105,7 @@ TEST_CASE("a frame's work has each shadow of a light, one of each group of caste
 TEST_CASE("addStyle: receivers have the style, others the plain shadow, and all of them what no caster throws")
 {
     onEveryDevice([](const device::Device& device) {
-        DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
+        DeclaredFrame frame(device, named(), settings());
         PassBench bench(frame, "addStyle");
         std::mt19937 random(1);
         const std::size_t size = frame.layout.size;
@@ -150,7 +150,7 @@ TEST_CASE("addStyle: receivers have the style, others the plain shadow, and all 
 TEST_CASE("shadowOfCasters: what casts elsewhere hides nothing")
 {
     onEveryDevice([](const device::Device& device) {
-        DeclaredFrame frame(device, named(), sized(render::monteCarlo(1), width, height));
+        DeclaredFrame frame(device, named(), settings());
         PassBench bench = benchOfCasters(frame);
         const auto mattesOf = [&](std::uint32_t others) {
             const std::vector<float> unknown(frame.layout.size, WEDGE_MATTE_UNKNOWN);
@@ -175,7 +175,7 @@ TEST_CASE("timesShare: what two shadows leave of each colour")
         std::vector<scene::ShadowStyle>& styles = scene.directionalLights.front().styles;
         styles.resize(2, styles.front());
         styles.back().casters = { "board" };
-        DeclaredFrame frame(device, scene, sized(render::monteCarlo(1), width, height));
+        DeclaredFrame frame(device, scene, settings());
         PassBench bench(frame, "timesShare");
         std::mt19937 random(1);
         const std::vector<float> one = someNumbers(random, 3 * frame.layout.size),

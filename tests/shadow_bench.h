@@ -30,6 +30,14 @@ inline scene::Scene underSun(float alpha = abstraction)
     return scene;
 }
 
+/// Of frames without a margin: the tests' loops go over the image.
+inline render::Settings settings()
+{
+    render::Settings s = sized(render::monteCarlo(1), width, height);
+    s.styleMargin = 0;
+    return s;
+}
+
 /// The frame's passes up to the edges of its shadow, run one after the other.
 struct Traced {
     explicit Traced(const device::Device& device, float alpha = abstraction)
@@ -37,7 +45,7 @@ struct Traced {
     {
     }
     Traced(const device::Device& device, const scene::Scene& scene)
-        : frame(device, scene, sized(render::monteCarlo(1), width, height))
+        : frame(device, scene, settings())
         , primary(frame, "primary")
         , matte(frame, "shadowMatte")
     {

@@ -36,10 +36,13 @@ ShadowOutline::ShadowOutline(render::Renderer& renderer, const std::string& ligh
     matte_ = planes("shadowMatte" + light);
     distance_ = planes("shadowDistance" + light);
     object_ = renderer.frame().counts("objectId").downloadAll(renderer.queue());
+    // Edges beyond the image have a say, but nobody sees what becomes of pixels there.
+    const std::uint32_t margin = layout_.margin;
     for (std::uint32_t y = 0; y < layout_.height; ++y) {
         for (std::uint32_t x = 0; x < layout_.width; ++x) {
             const std::size_t i = shared::pixelIndex(x, y, layout_.stride);
-            if (matte_[i] >= 0.0f) {
+            const bool shown = std::min(x, y) >= margin && x + margin < layout_.width && y + margin < layout_.height;
+            if (shown && matte_[i] >= 0.0f) {
                 pixels_.push_back(i);
             }
             if (x + 1 < layout_.width && y + 1 < layout_.height) {

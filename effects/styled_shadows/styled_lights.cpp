@@ -1,5 +1,6 @@
 #include "effects/styled_shadows/styled_lights.h"
 
+#include "effects/styled_shadows/style_knobs.h"
 #include "host/error.h"
 #include "host/render/distributed_samples.h"
 
@@ -93,6 +94,19 @@ std::string layerNameOf(const scene::Scene& scene, std::uint32_t quad)
 {
     const std::string name = plainName(scene.areaLights.at(quad).name);
     return nameAmong(plainNames(scene), name, fmt::format("{}{}", quadPrefix, quad + 1));
+}
+
+bool movesEdges(const Settings& settings, const scene::Scene& scene)
+{
+    if (settings.integrator != Integrator::Path || !settings.styles) {
+        return false;
+    }
+    const auto hard = [&](const StyledLight& light) {
+        const bool varies = std::ranges::any_of(light.styles, variesByOccluder);
+        return mostDistance(light.styles, varies ? farthestOccluder(scene, light.index) : 0.0f) > 0.0f;
+    };
+    const auto soft = [](const scene::AreaLight& light) { return mostDistance(light.styles, 0.0f) > 0.0f; };
+    return std::ranges::any_of(styledLights(settings, scene), hard) || std::ranges::any_of(scene.areaLights, soft);
 }
 
 std::vector<StyleGroup> groupsOf(const StyledLight& light)

@@ -31,6 +31,9 @@ std::vector<StyledLight> styledLights(const Settings& settings, const scene::Sce
 /// among area lights, from 1, where that is a number.
 std::string layerNameOf(const scene::Scene& scene, std::uint32_t quad);
 
+/// Whether frames of these settings move, soften or smooth the edge of any shadow, now or at a style's key.
+bool movesEdges(const Settings& settings, const scene::Scene& scene);
+
 /// Those of a light's styles that have the same casters.
 struct StyleGroup {
     std::string name; ///< of its layers: the light's, of the second and later ones with a number

@@ -244,6 +244,19 @@ public:
         };
     }
 
+    /// Where some style moves edges those beyond the border have a say: how far in pixels nobody knows before there are
+    /// rays, so it is as far as there may be.
+    int margin(const Settings& settings, const PreparedScene& scene) const override
+    {
+        if (!movesEdges(settings, scene)) {
+            return 0;
+        }
+        // Whole blocks, so that vectors of pixels are those of a frame without.
+        constexpr int block = WEDGE_BLOCK_PIXELS;
+        const auto side = static_cast<float>(std::max(settings.width, settings.height));
+        return (static_cast<int>(settings.styleMargin * side) + block - 1) / block * block;
+    }
+
     bool changesVisibility(const Settings& settings, const scene::AreaLight& light) const override
     {
         return settings.styles && !light.styles.empty();
