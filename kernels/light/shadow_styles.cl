@@ -14,7 +14,7 @@
 /// How much of what is seen lies at each distance, and how much in shadow, m^2: of stripes of rows. In classes whose
 /// width is a share of the distance, whatever the size of the scene is.
 ///
-/// in   p, of the whole image; distance: smoothed; matte, pixelSize; stripes; found: of keepArea(), the class that is
+/// in   p, of all that is shown; distance: smoothed; matte, pixelSize; stripes; found: of keepArea(), the class that is
 ///      told apart; absent: all distances are
 /// out  areas: WEDGE_AREA_NUMBERS a stripe
 #include "pass/countAreas.h"
@@ -29,8 +29,8 @@ __kernel void countAreas(PARAMETERS)
     for (uint k = 0u; k < WEDGE_AREA_NUMBERS; ++k) {
         own[k] = 0.0f;
     }
-    for (uint y = stripe; y < p.height; y += stripes) {
-        for (uint x = 0u; x < p.width; ++x) {
+    for (uint y = p.y0 + stripe; y < p.y1; y += stripes) {
+        for (uint x = p.x0; x < p.x1; ++x) {
             const uint i = pixelIndex(x, y, p.stride);
             const float v = matte[i], area = pixelSize[i] * pixelSize[i];
             if (v >= 0.0f) {
