@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
 
 namespace wedge::app::test {
 namespace {
@@ -109,6 +112,37 @@ TEST_CASE("styles by distance and of some objects are rendered, and unknown obje
     const Outcome outcome = place.run({ "render", "s.toml", "-o", "a.exr" });
     CHECK(outcome.status == failure);
     CHECK_MESSAGE(contains(outcome.err, "names no object of the scene: 'wal': did you mean 'wall'?"), outcome.err);
+}
+
+TEST_CASE("images of any shape have styles, and frames that see beyond the border go with all that looks at pixels")
+{
+    Workplace place;
+    writeScene(place, style);
+    for (const char* size : { "1x1", "7x5", "200x3", "64x64" }) {
+        CAPTURE(size);
+        const image::LayeredImage image = rendered(place, { "--size", size, "--check-launches" });
+        CHECK(fmt::format("{}x{}", image.width, image.height) == size);
+    }
+    const auto sums = [&](const Arguments& more) {
+        Arguments all { "--size", "96x64", "--bounces", "1", "--spp", "8", "--check-launches" };
+        all.insert(all.end(), more.begin(), more.end());
+        const std::vector<float> red = channelOf(rendered(place, all), "R");
+        CHECK(red.size() == 96 * 64);
+        CHECK(std::ranges::all_of(red, [](float v) { return std::isfinite(v) && v >= 0; }));
+        return std::accumulate(red.begin(), red.end(), 0.0);
+    };
+    const double all = sums({});
+    CHECK(sums({ "--add-filter", "path-density" }) == doctest::Approx(all).epsilon(0.03));
+    CHECK(sums({ "--add-filter", "gaussian:sigma=1" }) == doctest::Approx(all).epsilon(0.03));
+    CHECK(sums({ "--method", "mc" }) == doctest::Approx(all).epsilon(0.03));
+    // Frames before are kept with their margins.
+    Arguments frames { "render", "s.toml", "--quiet", "--size", "96x64", "--bounces", "1", "--spp", "8",
+        "--check-launches", "--frames", "0:2", "--temporal", "on", "-o", "f%d.exr" };
+    const Outcome outcome = place.run(frames);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const std::vector<float> last = values(place.exr("f2.exr"), "R");
+    CHECK(last.size() == 96 * 64);
+    CHECK(std::accumulate(last.begin(), last.end(), 0.0) == doctest::Approx(all).epsilon(0.03));
 }
 
 TEST_CASE("keys of a style: frames of a sequence are those of themselves, and what stays is not made again")

@@ -91,17 +91,10 @@ graph::Handle<Metres> zerosWithin(FrameBuilder& f, const graph::Handle<Matte>& m
         "areas in shadow", graph::floats, std::uint64_t { WEDGE_AREA_STRIPES } * WEDGE_AREA_NUMBERS);
     shared::AnalysisParams p = f.analysisParams();
     setRectangle(p, f.graph.shown()); // what is beyond the image would have to be smoothed, too
-    f.graph.add({ .name = "areas of shadows",
-        .kind = PassKind::Analysis,
-        .kernel = { stylesProgram, "countAreas" },
-        .arguments = { value("p", p), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), found,
-            reads("distance", distance), reads("matte", matte), reads("pixelSize", f.surfaces.pixelSize),
-            writes("areas", areas) },
-        .domain = graph::Domain::Items,
-        .count = [](const Launch&) { return std::size_t { WEDGE_AREA_STRIPES }; },
-        .mostItems = WEDGE_AREA_STRIPES,
-        .mostOfGroup = 1,
-        .ofShown = true });
+    f.items("areas of shadows", PassKind::Analysis, { stylesProgram, "countAreas" }, WEDGE_AREA_STRIPES,
+        { value("p", p), graph::unlessEmpty("stripes", WEDGE_AREA_STRIPES), found, reads("distance", distance),
+            reads("matte", matte), reads("pixelSize", f.surfaces.pixelSize), writes("areas", areas) },
+        true);
     auto sums = f.graph.list<Edges>("areas in shadow, together", graph::floats, WEDGE_AREA_NUMBERS);
     f.graph.add({ .name = "areas of shadows",
         .kind = PassKind::Analysis,

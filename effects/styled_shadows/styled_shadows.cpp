@@ -251,10 +251,12 @@ public:
         if (!movesEdges(settings, scene)) {
             return 0;
         }
+        const auto [shorter, longer] = std::minmax(settings.width, settings.height);
+        const float wanted =
+            std::min(settings.styleMargin * static_cast<float>(longer), 0.5f * static_cast<float>(shorter));
         // Whole blocks, so that vectors of pixels are those of a frame without.
         constexpr int block = WEDGE_BLOCK_PIXELS;
-        const auto side = static_cast<float>(std::max(settings.width, settings.height));
-        return (static_cast<int>(settings.styleMargin * side) + block - 1) / block * block;
+        return static_cast<int>(wanted / block + 0.5f) * block;
     }
 
     bool changesVisibility(const Settings& settings, const scene::AreaLight& light) const override

@@ -4,6 +4,7 @@
 #include "host/app/console.h"
 #include "host/app/values.h"
 #include "host/error.h"
+#include "host/render/effect.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,9 +84,12 @@ TimeModel timesOfFrames(render::Renderer& renderer, const render::Settings& sett
         return 1e-3 * frame.deviceMilliseconds - ofTables;
     };
     const double few = seconds(fewLights), many = seconds(manyLights);
-    const Window made = render::outputWindow(settings);
-    const double pixels =
-        static_cast<double>(made.width()) * made.height() / (static_cast<double>(probe.width) * probe.height);
+    const auto pixelsOf = [&](const render::Settings& of) {
+        const Window made = render::outputWindow(of);
+        const double more = 2.0 * render::frameLayout(of, renderer.scene()).margin;
+        return (made.width() + more) * (made.height() + more);
+    };
+    const double pixels = pixelsOf(settings) / pixelsOf(probe);
     const double each = std::max(many - few, 1e-3 * many) / (manyLights - fewLights);
     return { pixels * each, pixels * std::max(few - fewLights * each, 0.0) + ofTables };
 }

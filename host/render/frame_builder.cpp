@@ -149,7 +149,7 @@ void FrameBuilder::pixels(std::string_view name, PassKind kind, graph::KernelNam
 }
 
 void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName kernel, std::size_t count,
-    std::vector<graph::Argument> arguments)
+    std::vector<graph::Argument> arguments, bool ofShown)
 {
     graph.add({ .name = std::string(name),
         .kind = kind,
@@ -158,7 +158,8 @@ void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName
         .domain = graph::Domain::Items,
         .count = [count](const Launch&) { return count; },
         .mostItems = count,
-        .mostOfGroup = 1 }); // each item has much to do
+        .mostOfGroup = 1, // each item has much to do
+        .ofShown = ofShown });
 }
 
 void FrameBuilder::count(const graph::Version& counted, bool everywhere, graph::Handle<Tally>& tally,

@@ -240,9 +240,9 @@ struct FrameBuilder {
         std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});
     void pixels(std::string_view name, device::PassKind kind, graph::KernelName kernel,
         std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});
-    /// A pass of that many items.
+    /// A pass of that many items. ofShown: they are made of all that is shown; else of margins, too.
     void items(std::string_view name, device::PassKind kind, graph::KernelName kernel, std::size_t count,
-        std::vector<graph::Argument> arguments);
+        std::vector<graph::Argument> arguments, bool ofShown = false);
     /// Adds what pixels counted to the frame's tally of it, within the output or in the whole image, and to its plane
     /// of it, where that is wanted; null: there is none. mask: pixels that do not count have 0 there.
     void count(const graph::Version& counted, bool everywhere, graph::Handle<Tally>& tally,

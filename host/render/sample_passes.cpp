@@ -34,7 +34,8 @@ void exposureOfProbes(FrameBuilder& frame, const graph::Handle<Sums>& sums, cons
     auto bins = frame.graph.list<Count>("bins of luminances", graph::counts, WEDGE_PROBE_BINS);
     frame.items(exposurePass, PassKind::Analysis, { "filter/exposure.cl", "exposureOfProbes" }, 1,
         { frame.rectangle(frame.analysisParams()), reads("sums", sums), reads("taken", taken), writes("bins", bins),
-            writes("exposure", exposure) });
+            writes("exposure", exposure) },
+        true);
 }
 
 void spread(FrameBuilder& frame, float sigma, float widest, LostLight lost)

@@ -92,21 +92,14 @@ private:
         for (std::size_t i = 0; i < kinds_.size(); ++i) {
             const AskedSamples& kind = kinds_[i];
             // What is beyond the image takes as many as the image would, and has no say.
-            f_.graph.add({ .name = pass,
-                .kind = PassKind::Analysis,
-                .kernel = { file, kernel },
-                .arguments =
-                    joined({ f_.rectangle(f_.analysisParams()), value("add", i > 1 ? 1u : 0u), value("rays", kind.rays),
-                               value("least", kind.least), value("most", asked_.most), reads("scale", scale_) },
-                        planes(kind),
-                        Arguments { i == 0 ? writes("sums", out.first)
-                                : i == 1   ? writes("sums", out.others)
-                                           : updates("sums", out.others) }),
-                .domain = graph::Domain::Items,
-                .count = [](const graph::Launch&) { return std::size_t { WEDGE_SCALE_STRIPES }; },
-                .mostItems = WEDGE_SCALE_STRIPES,
-                .mostOfGroup = 1,
-                .ofShown = true });
+            f_.items(pass, PassKind::Analysis, { file, kernel }, WEDGE_SCALE_STRIPES,
+                joined({ f_.rectangle(f_.analysisParams()), value("add", i > 1 ? 1u : 0u), value("rays", kind.rays),
+                           value("least", kind.least), value("most", asked_.most), reads("scale", scale_) },
+                    planes(kind),
+                    Arguments { i == 0 ? writes("sums", out.first)
+                            : i == 1   ? writes("sums", out.others)
+                                       : updates("sums", out.others) }),
+                true);
         }
     }
 
