@@ -124,7 +124,7 @@ TEST_CASE("images of any shape have styles, and frames that see beyond the borde
         CHECK(fmt::format("{}x{}", image.width, image.height) == size);
     }
     const auto sums = [&](const Arguments& more) {
-        Arguments all { "--size", "96x64", "--bounces", "1", "--spp", "8", "--check-launches" };
+        Arguments all { "--size", "96x64", "--bounces", "1", "--spp", "16", "--check-launches" };
         all.insert(all.end(), more.begin(), more.end());
         const std::vector<float> red = channelOf(rendered(place, all), "R");
         CHECK(red.size() == 96 * 64);
@@ -136,7 +136,7 @@ TEST_CASE("images of any shape have styles, and frames that see beyond the borde
     CHECK(sums({ "--add-filter", "gaussian:sigma=1" }) == doctest::Approx(all).epsilon(0.03));
     CHECK(sums({ "--method", "mc" }) == doctest::Approx(all).epsilon(0.03));
     // Frames before are kept with their margins.
-    Arguments frames { "render", "s.toml", "--quiet", "--size", "96x64", "--bounces", "1", "--spp", "8",
+    Arguments frames { "render", "s.toml", "--quiet", "--size", "96x64", "--bounces", "1", "--spp", "16",
         "--check-launches", "--frames", "0:2", "--temporal", "on", "-o", "f%d.exr" };
     const Outcome outcome = place.run(frames);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);

@@ -211,8 +211,8 @@ private:
 /// penumbras of others; both 0 where none of them moves edges.
 DistanceReach reachOf(const LightVisibility& seen, const std::vector<scene::ShadowStyle>& styles)
 {
-    const float most = mostDistance(styles, 0.0f);
-    return { most > 0.0f ? most + widthOf(seen.light) : 0.0f, most };
+    const float most = mostDistance(styles, 0.0f); // with headroom; half of it is where styles are done
+    return { most > 0.0f ? most + widthOf(seen.light) : 0.0f, 0.5f * most };
 }
 
 } // namespace
