@@ -158,7 +158,7 @@ TEST_CASE("keys of a style: frames of a sequence are those of themselves, and wh
     const auto frames = [&](const std::string& range, const Arguments& more) {
         Arguments all { "render", "s.toml", "--frames", range, "--fps", "1" };
         all.insert(all.end(), more.begin(), more.end());
-        const Outcome outcome = place.run(all);
+        Outcome outcome = place.run(all);
         REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
         return outcome;
     };

@@ -263,7 +263,7 @@ TEST_CASE("two lights have each their style")
 TEST_CASE("layers show what is seen of a quad with a style, and how far it is to where that is half")
 {
     onEveryDevice([](const device::Device& device) {
-        const auto shown = [&](scene::Scene scene, const std::string& name) {
+        const auto shown = [&](const scene::Scene& scene, const std::string& name) {
             render::Renderer renderer(scene, device, renderOptions());
             renderer.render(filtered(), {}, true);
             return std::pair(pixels(renderer, "shadowMatte." + name, { 0, 0, wide, high }),

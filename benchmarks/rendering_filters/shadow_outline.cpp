@@ -88,7 +88,7 @@ void ShadowOutline::addPieces(std::size_t corner)
         }
     }
     if (sides.size() == 4 && matte_[corners[1]] < 0.5f) {
-        std::ranges::rotate(sides, sides.end() - 1); // around the lit corners
+        std::rotate(sides.begin(), sides.end() - 1, sides.end()); // around the lit corners
     }
     const auto middle = [&](std::size_t side) {
         return 0.5 * (vectorAt(position_, 0, corners[side]) + vectorAt(position_, 0, corners[(side + 1) % 4]));
