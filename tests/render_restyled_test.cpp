@@ -87,7 +87,7 @@ void change(render::Renderer& renderer, const Turned& t)
 render::FrameStatistics againAsAlone(render::Renderer& renderer, const std::vector<float>& before,
     const scene::Scene& scene, const render::Settings& s, bool layers)
 {
-    const render::FrameStatistics frame = renderer.render(s, {}, layers);
+    render::FrameStatistics frame = renderer.render(s, {}, layers);
     render::Options poisoned = renderOptions();
     poisoned.poison = true;
     render::Renderer alone(scene, renderer.device(), poisoned);

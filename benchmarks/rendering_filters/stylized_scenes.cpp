@@ -76,8 +76,9 @@ std::string balls(const std::string& scenes)
                                   "\"thing\"\nsmooth = true\ninstances = [\n",
         scenes);
     for (int k = 0; k < ballsAcross * ballsAlong; ++k) {
-        const double x = 0.3 * (k % ballsAcross) - 1.95 + jitter * (2 * uniform(random) - 1);
-        const double z = 0.3 * (k / ballsAcross) - 1.35 + jitter * (2 * uniform(random) - 1);
+        const int column = k % ballsAcross, row = k / ballsAcross;
+        const double x = 0.3 * column - 1.95 + jitter * (2 * uniform(random) - 1);
+        const double z = 0.3 * row - 1.35 + jitter * (2 * uniform(random) - 1);
         out +=
             fmt::format("    {{ transform = [{{ scale = 0.09 }}, {{ translate = [{:.4f}, 0.6, {:.4f}] }}] }},\n", x, z);
     }

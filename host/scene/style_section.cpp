@@ -78,8 +78,7 @@ std::vector<std::string> readNames(TableReader& table, const std::string& key)
 {
     std::vector<std::string> names = table.names(key);
     std::ranges::sort(names);
-    const auto rest = std::ranges::unique(names);
-    names.erase(rest.begin(), rest.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
 }
 
