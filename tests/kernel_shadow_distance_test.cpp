@@ -14,9 +14,7 @@ TEST_CASE("shadowDistance: the power mean of distances to edges that count, with
         std::mt19937 random(1);
         for (std::size_t i = 0; i < pieces.size(); i += 5)
             pieces[i].normal = unitVector(random); // most of which no surface faces as
-        PassBench bench(traced.frame, "shadowDistance");
-        traced.give(bench);
-        giveEdges(traced, bench, pieces);
+        PassBench bench = distancesTo(traced, pieces);
         bench.run();
         const double largest = double { bench.own<float>("largest") };
         CHECK(largest == doctest::Approx(2 * (inflation + 0.5 * softness + 3 * abstraction)));
@@ -46,9 +44,7 @@ TEST_CASE("shadowDistance: where means are of near edges alone they go over into
         Traced traced(device);
         const Seen s(traced);
         const std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
-        PassBench bench(traced.frame, "shadowDistance");
-        traced.give(bench);
-        giveEdges(traced, bench, pieces);
+        PassBench bench = distancesTo(traced, pieces);
         const float largest = 0.7f, within = 0.08f;
         bench.value("largest", largest);
         bench.value("meanWithin", within);
@@ -83,9 +79,7 @@ TEST_CASE("shadowDistance: a pixel is as near to an edge where styles tell kilom
         Traced traced(device);
         const Seen s(traced);
         const std::vector<Piece> pieces = joinedPieces(piecesOfTiles(s));
-        PassBench bench(traced.frame, "shadowDistance");
-        traced.give(bench);
-        giveEdges(traced, bench, pieces);
+        PassBench bench = distancesTo(traced, pieces);
         for (const float largest : { 3e4f, 9e12f })
             for (const bool published : { false, true }) {
                 CAPTURE(largest);

@@ -19,6 +19,15 @@ public:
         for (PassBench& count : count_)
             traced.give(count);
     }
+    /// Counts within these pixels alone.
+    void within(const image::Window& window)
+    {
+        for (PassBench& count : count_) {
+            auto p = count.own<shared::AnalysisParams>("p");
+            render::setRectangle(p, window);
+            count.value("p", p);
+        }
+    }
     void plane(const char* name, const std::vector<float>& values)
     {
         for (PassBench& count : count_)
@@ -54,18 +63,29 @@ TEST_CASE("countAreas, sumAreas and keepArea: the distance below which as much l
         for (float& v : s.matte.values)
             v = v == WEDGE_MATTE_LIT && ++turn % 11 == 0 ? 0.5f : v;
         AreaBench bench(traced, traced.frame);
+        const image::Window window { 13, 6, width - 11, height - 7 }; // as where there are margins
+        const auto isShown = [&](int x, int y) {
+            return x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
+        };
+        bench.within(window);
         for (const double scale : { 1e-6, 1.0, 1e6 }) {
             CAPTURE(scale);
             std::mt19937 random(1);
             std::vector<float> distances = someNumbers(random, traced.frame.layout.size, -0.1 * scale, 0.17 * scale);
             for (std::size_t i = 0; i < distances.size(); i += 7)
                 distances[i] *= 1e5f; // of another shadow, or none
-            const Planes<float> distance = planesOf(traced.frame.layout, distances);
-            bench.plane("distance", distances);
+            Planes<float> distance = planesOf(traced.frame.layout, distances);
+            everyPixel(traced.frame.layout, [&](int x, int y) {
+                if (!isShown(x, y))
+                    distance.at(x, y) = static_cast<float>(-0.1 * scale); // has no say
+            });
+            bench.plane("distance", distance.values);
             bench.plane("matte", s.matte.values);
             const double zero = double { bench.zero() };
             double shadow = 0, below = 0, all = 0, largest = 0;
             everyPixel(traced.frame.layout, [&](int x, int y) {
+                if (!isShown(x, y))
+                    return;
                 const double area = std::pow(double { s.size.at(x, y) }, 2), v = s.matte.at(x, y);
                 all += v >= 0 ? area : 0;
                 largest = std::max(largest, area);

@@ -1,4 +1,5 @@
 // Frames whose shadows' edges move see beyond their border: against the middle of larger ones, and bits.
+#include "host/render/filter_call.h"
 #include "host/render/layers.h"
 #include "tests/styled_floor.h"
 
@@ -152,12 +153,18 @@ TEST_CASE("where no edge moves there is no margin, and where one does numbers st
         render::Settings s = sized(render::monteCarlo(4), 90, 70), without = s;
         s.bounces = without.bounces = 1;
         without.styleMargin = 0;
-        const auto [image, margin] = frame(s);
-        CHECK(margin == 16);
-        const std::vector<float> plain = frame(without).first;
-        for (int y = 20; y < 50; ++y)
-            for (int i = 3 * (y * 90 + 20); i < 3 * (y * 90 + 70); ++i)
-                REQUIRE(image[static_cast<std::size_t>(i)] == plain[static_cast<std::size_t>(i)]);
+        // So is the exposure that filters of samples go by, which is of the image.
+        for (const bool clamps : { false, true }) {
+            CAPTURE(clamps);
+            if (clamps)
+                s.filters = without.filters = { render::filterCall("--add-filter", "clamp:level=0.3") };
+            const auto [image, margin] = frame(s);
+            CHECK(margin == 16);
+            const std::vector<float> plain = frame(without).first;
+            for (int y = 20; y < 50; ++y)
+                for (int i = 3 * (y * 90 + 20); i < 3 * (y * 90 + 70); ++i)
+                    REQUIRE(image[static_cast<std::size_t>(i)] == plain[static_cast<std::size_t>(i)]);
+        }
     });
 }
 

@@ -190,11 +190,11 @@ TEST_CASE("a smoothed soft shadow takes as much light as before, unless that is 
                 frameOf(device, underLamp(styles, Board { .centre = { 0, 1, 0 }, .half = 0.15f }));
             return std::accumulate(open.begin(), open.end(), 0.0) - std::accumulate(image.begin(), image.end(), 0.0);
         };
-        scene::ShadowStyle kept = style(0, 0, 0.12f), not_ = kept;
-        not_.keepArea = false;
+        scene::ShadowStyle kept = style(0, 0, 0.12f), shrinks = kept;
+        shrinks.keepArea = false;
         const double plain = missing({});
         CHECK(missing({ kept }) == doctest::Approx(plain).epsilon(0.08));
-        CHECK(missing({ not_ }) < 0.75 * plain);
+        CHECK(missing({ shrinks }) < 0.75 * plain);
     });
 }
 

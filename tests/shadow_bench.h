@@ -169,10 +169,12 @@ inline std::vector<float> listOf(const std::vector<Piece>& pieces, std::size_t r
     return out;
 }
 
-/// Gives a pass these pieces of edge and, as the device makes them, boxes around them. by: as of listOf()
-inline void giveEdges(Traced& traced, PassBench& bench, const std::vector<Piece>& pieces, bool by = false)
+/// The pass that finds distances to these pieces of edge, with boxes around them as the device makes them. by: as of
+/// listOf()
+inline PassBench distancesTo(Traced& traced, const std::vector<Piece>& pieces, bool by = false)
 {
-    PassBench bound(traced.frame, "boundEdges");
+    PassBench bound(traced.frame, "boundEdges"), bench(traced.frame, "shadowDistance");
+    traced.give(bench);
     const std::vector<float> edges = listOf(pieces, bench.elements("edges"), by);
     const std::vector<std::uint32_t> listed { static_cast<std::uint32_t>(pieces.size()), 0 };
     for (PassBench* pass : { &bound, &bench }) {
@@ -181,6 +183,7 @@ inline void giveEdges(Traced& traced, PassBench& bench, const std::vector<Piece>
     }
     bound.run();
     bench.plane("boxes", bound.read<float>("boxes"));
+    return bench;
 }
 
 inline std::vector<Piece> joinedPieces(const std::vector<std::vector<Piece>>& tiles)

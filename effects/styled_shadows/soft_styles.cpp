@@ -97,14 +97,14 @@ private:
         return f_.description.areaLights[seen_.quad].styles.at(places_[of]);
     }
 
-    /// A number of one of them: of one with keys the same pass finds another one later.
     template <class Number>
     graph::Argument knob(std::string name, std::size_t of, const Number& number) const
     {
-        const auto now = [&scene = f_.description, quad = seen_.quad, place = places_[of], number] {
-            return number(scene.areaLights[quad].styles.at(place));
+        const auto style = [&scene = f_.description, quad = seen_.quad, place = places_[of] ]() -> const auto&
+        {
+            return scene.areaLights[quad].styles.at(place);
         };
-        return style(of).keys.empty() ? value(std::move(name), now()) : graph::changing(std::move(name), now);
+        return knobValue(std::move(name), style, number);
     }
 
     void levels()

@@ -6,6 +6,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace wedge::graph {
 
@@ -22,6 +25,14 @@ shared::StyleKnob softnessOf(const scene::ShadowStyle& style);
 shared::StyleKnob abstractionOf(const scene::ShadowStyle& style);
 /// Of the channel 0, 1 or 2.
 shared::StyleKnob brightnessOf(const scene::ShadowStyle& style, int channel);
+
+/// A number of a style, which style() finds in the scene: of one with keys the same pass finds another one later.
+template <class Style, class Number>
+graph::Argument knobValue(std::string name, const Style& style, const Number& number)
+{
+    const auto now = [style, number] { return number(style()); };
+    return style().keys.empty() ? graph::value(std::move(name), now()) : graph::changing(std::move(name), now);
+}
 
 /// The largest that a knob has, either way, for what is up to so many metres away.
 float mostOf(const shared::StyleKnob& knob, float farthest);

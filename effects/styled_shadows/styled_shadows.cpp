@@ -110,15 +110,15 @@ private:
                                        : graph::absent("away");
     }
 
-    /// A number of one of the light's styles: of one with keys the same pass finds another one later.
     template <class Number>
     graph::Argument knob(std::string name, std::size_t style, const Number& number) const
     {
-        const auto now = [&scene = f_.description, light = light_.index, place = group_.places[style], number] {
-            return number(styleOf(scene, light, place));
+        const auto found =
+            [&scene = f_.description, light = light_.index, place = group_.places[style] ]() -> const auto&
+        {
+            return styleOf(scene, light, place);
         };
-        return light_.styles[style].keys.empty() ? value(std::move(name), now())
-                                                 : graph::changing(std::move(name), now);
+        return knobValue(std::move(name), found, number);
     }
 
     /// What all styles leave of the light.

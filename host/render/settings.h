@@ -245,8 +245,8 @@ struct Settings {
     int maxSurfaces = 16;
     LightSampling lightSampling = LightSampling::Both;
     bool styles = true; ///< shadows are drawn as lights' styles say, docs/stylized-shadows.md; false: as they are
-    /// How far beyond the border shadows are known that styles move, in parts of the image's longer side, and up to 15
-    /// pixels more. docs/stylized-shadows.md says what for
+    /// How far beyond the border shadows are known that styles move, in parts of the image's longer side, 0 to 1; at
+    /// most half of the shorter one, to the nearest multiple of 16 pixels. docs/stylized-shadows.md says what for
     float styleMargin = 0.125f;
     IndirectSettings indirect;
     EnvironmentSettings environment;
